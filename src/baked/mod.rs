@@ -1,0 +1,42 @@
+//! Floor 2: a scene with its light, the end of the bake and the beginning of every picture.
+//!
+//! The scene of a [`BakedScene`] has the *elements* as its triangles; double-sided input triangles are written out as a
+//! front and a back. Everything that works on a [`Scene`] (rays, shadows, `info`) therefore works on a bake.
+
+use glam::Vec3;
+
+use crate::scene::Scene;
+
+/// A scene whose vertices carry light.
+#[derive(Clone, Debug, Default)]
+pub struct BakedScene {
+    /// Elements as triangles.
+    pub scene: Scene,
+    /// Light at the vertices of `scene`.
+    pub light: VertexLight,
+}
+
+/// Irradiance at vertices, direct and indirect apart, light group by light group.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct VertexLight {
+    /// Light of each group [g], in the order of [`Scene::light_groups`].
+    pub groups: Vec<GroupLight>,
+}
+
+/// Irradiance that one light group brings, lux per channel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GroupLight {
+    /// Straight from the lights [v].
+    pub direct: Vec<Vec3>,
+    /// After at least one reflection [v].
+    pub indirect: Vec<Vec3>,
+}
+
+impl VertexLight {
+    /// No light at all.
+    #[must_use]
+    pub fn dark(num_groups: usize, num_vertices: usize) -> Self {
+        let group = GroupLight { direct: vec![Vec3::ZERO; num_vertices], indirect: vec![Vec3::ZERO; num_vertices] };
+        Self { groups: vec![group; num_groups] }
+    }
+}

@@ -1,0 +1,85 @@
+//! Deterministic sample points: every random choice in the program is a pure function of an index.
+
+use glam::{Vec2, Vec3};
+
+/// A well-mixed 32-bit hash of `x` (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", PCG).
+#[must_use]
+pub fn hash(x: u32) -> u32 {
+    let state = x.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+    let word = ((state >> ((state >> 28) + 4)) ^ state).wrapping_mul(277_803_737);
+    (word >> 22) ^ word
+}
+
+/// Uniform number in [0, 1) from a hash value.
+#[must_use]
+pub fn unit_float(bits: u32) -> f32 {
+    (bits >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+/// The `index`-th point of the R2 low-discrepancy sequence, shifted by `seed`, in [0, 1)^2.
+///
+/// Source: Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
+#[must_use]
+pub fn r2(index: u32, seed: u32) -> Vec2 {
+    // Fractions of 2^32 keep the sequence exact for any index.
+    const STEP_X: u32 = 3_242_174_889;
+    const STEP_Y: u32 = 2_447_445_414;
+    let x = hash(seed).wrapping_add(index.wrapping_mul(STEP_X));
+    let y = hash(seed ^ 0x9e37_79b9).wrapping_add(index.wrapping_mul(STEP_Y));
+    Vec2::new(unit_float(x), unit_float(y))
+}
+
+/// Barycentric coordinates of a uniformly distributed point of a triangle, from a point of the unit square.
+///
+/// Source: Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
+#[must_use]
+pub fn triangle_from_square(square: Vec2) -> Vec3 {
+    let (mut x, mut y) = (square.x, square.y);
+    if y > x {
+        x *= 0.5;
+        y -= x;
+    } else {
+        y *= 0.5;
+        x -= y;
+    }
+    Vec3::new(1.0 - x - y, x, y)
+}
+
+/// Unit vectors `(tangent, bitangent)` that make a right-handed frame with the unit vector `normal`.
+///
+/// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+#[must_use]
+pub fn tangent_frame(normal: Vec3) -> (Vec3, Vec3) {
+    let sign = 1f32.copysign(normal.z);
+    let a = -1.0 / (sign + normal.z);
+    let b = normal.x * normal.y * a;
+    (
+        Vec3::new(1.0 + sign * normal.x * normal.x * a, sign * b, -sign * normal.x),
+        Vec3::new(b, sign + normal.y * normal.y * a, -normal.y),
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frame_is_right_handed_and_orthonormal() {
+        for i in 0..200 {
+            let p = r2(i, 7);
+            let z = 2.0 * p.x - 1.0;
+            let phi = std::f32::consts::TAU * p.y;
+            let r = (1.0 - z * z).sqrt();
+            let n = Vec3::new(r * phi.cos(), r * phi.sin(), z);
+            let (t, b) = tangent_frame(n);
+            assert!((t.cross(b) - n).length() < 1e-5);
+            assert!(t.dot(b).abs() < 1e-5 && (t.length() - 1.0).abs() < 1e-5);
+        }
+    }
+
+    #[test]
+    fn triangle_samples_have_the_centroid_as_mean() {
+        let mean: Vec3 = (0..4096).map(|i| triangle_from_square(r2(i, 1))).sum::<Vec3>() / 4096.0;
+        assert!((mean - Vec3::splat(1.0 / 3.0)).abs().max_element() < 2e-3, "{mean}");
+    }
+}

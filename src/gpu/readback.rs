@@ -1,0 +1,35 @@
+//! Textures and buffers back to the CPU.
+
+use super::{Gpu, GpuError};
+
+/// Bytes of a whole single-sample texture, rows tightly packed.
+///
+/// Blocks until the queue has drained; for pictures, not for the hemicube loop.
+///
+/// # Errors
+/// The device was lost.
+pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) -> Result<Vec<u8>, GpuError> {
+    let size = texture.size();
+    let row = size.width * bytes_per_pixel;
+    let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("readback"),
+        size: u64::from(padded_row) * u64::from(size.height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("readback") });
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded_row), rows_per_image: None },
+        },
+        size,
+    );
+    gpu.queue.submit([encoder.finish()]);
+    buffer.map_async(wgpu::MapMode::Read, .., |_| {});
+    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Lost(error.to_string()))?;
+    let view = buffer.get_mapped_range(..).map_err(|error| GpuError::Lost(error.to_string()))?;
+    Ok(view.chunks_exact(padded_row as usize).flat_map(|padded| &padded[..row as usize]).copied().collect())
+}

@@ -1,0 +1,73 @@
+//! Every shader of the program, stitched from its parts.
+//!
+//! There is no preprocessor: an entry is a list of files laid end to end, variants are pipeline `override` constants.
+//! Under a debug switch of the viewer the same files are read from disk again (F5).
+
+/// A complete WGSL module and the files it is made of.
+pub struct Shader {
+    /// Stem of its main file, the label of its module.
+    pub name: &'static str,
+    /// (file name below `shaders/`, text built in), laid end to end.
+    pub parts: &'static [(&'static str, &'static str)],
+}
+
+macro_rules! shader {
+    ($name:literal, $($file:literal),+) => {
+        Shader { name: $name, parts: &[$(($file, include_str!(concat!("../../shaders/", $file)))),+] }
+    };
+}
+
+/// Item buffer: element ids seen from a hemicube.
+pub const ITEM_BUFFER: Shader = shader!("item_buffer", "item_buffer.wgsl");
+
+/// All shaders, for the test that validates each and for reloading.
+pub const ALL: &[&Shader] = &[&ITEM_BUFFER];
+
+impl Shader {
+    /// The WGSL text.
+    #[must_use]
+    pub fn source(&self) -> String {
+        self.parts.iter().map(|(_, text)| *text).collect::<Vec<_>>().join("\n")
+    }
+
+    /// Compiles the built-in text.
+    #[must_use]
+    pub fn module(&self, device: &wgpu::Device) -> wgpu::ShaderModule {
+        device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(self.name),
+            source: wgpu::ShaderSource::Wgsl(self.source().into()),
+        })
+    }
+}
+
+/// Parses and validates WGSL; the error is naga's own message with the place marked.
+///
+/// # Errors
+/// The text is no valid module.
+pub fn validate(source: &str) -> Result<(), String> {
+    let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
+    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all())
+        .validate(&module)
+        .map_err(|error| error.emit_to_string(source))?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_shader_is_valid() {
+        for shader in ALL {
+            if let Err(message) = validate(&shader.source()) {
+                panic!("{}: {message}", shader.name);
+            }
+        }
+    }
+
+    #[test]
+    fn a_broken_shader_is_refused_with_its_place() {
+        let message = validate("@fragment fn main() -> u32 { return 1.5; }").unwrap_err();
+        assert!(message.contains("1:"), "{message}");
+    }
+}

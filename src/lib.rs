@@ -1,0 +1,23 @@
+//! Hemicube: true, view-independent diffuse light for glTF scenes.
+//!
+//! The crate is one route, told floor by floor; a floor only imports the floors below it
+//! (`ARCHITECTURE.md` draws the house, `tests/floors.rs` enforces it):
+//!
+//! 0. [`base`]: ids, colour, sampling, progress.
+//! 1. [`scene`]: a glTF file becomes a validated [`scene::Scene`].
+//! 2. [`trace`], [`patch`], [`gpu`], [`baked`]: rays, patches and elements, the device, stored light.
+//! 3. [`form_factor`], [`render`]: rows of form factors; pictures of a lit scene.
+//! 4. [`radiosity`]: direct light, progressive refinement, vertex light.
+//! 5. [`bake`]: the whole job as one recipe.
+//! 6. [`viewer`]: the window.
+//! 7. [`cli`]: the command line.
+
+pub mod base;
+pub mod scene;
+
+pub mod baked;
+pub mod gpu;
+pub mod patch;
+pub mod trace;
+
+pub mod bake;

@@ -1,0 +1,3 @@
+//! The `hemicube` command: see `hemicube --help`.
+
+fn main() {}
