@@ -20,4 +20,6 @@ pub mod gpu;
 pub mod patch;
 pub mod trace;
 
+pub mod render;
+
 pub mod bake;
