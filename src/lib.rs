@@ -20,4 +20,8 @@ pub mod gpu;
 pub mod patch;
 pub mod trace;
 
+pub mod form_factor;
+
+pub mod radiosity;
+
 pub mod bake;
