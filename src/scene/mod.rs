@@ -4,6 +4,7 @@
 //! later stage checks again. Deliberately absent: the node tree (transforms are applied on loading) and anything of
 //! the GPU.
 
+pub mod builtin;
 pub mod camera;
 pub mod light;
 pub mod material;
