@@ -21,3 +21,5 @@ pub mod patch;
 pub mod trace;
 
 pub mod bake;
+
+pub mod cli;
