@@ -20,6 +20,8 @@ pub mod gpu;
 pub mod patch;
 pub mod trace;
 
+pub mod render;
+
 pub mod bake;
 
 pub mod cli;

@@ -1,1 +1,5 @@
+//! All tests that go through the public door, in one binary.
 
+mod support;
+
+mod pictures;
