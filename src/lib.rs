@@ -21,7 +21,10 @@ pub mod patch;
 pub mod trace;
 
 pub mod form_factor;
+pub mod render;
 
 pub mod radiosity;
 
 pub mod bake;
+
+pub mod cli;

@@ -1,6 +1,8 @@
-//! All integration tests in one binary.
+//! All tests that go through the public door, in one binary.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-mod meshing;
-mod radiosity;
 mod support;
+
+mod meshing;
+mod pictures;
+mod radiosity;

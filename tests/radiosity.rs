@@ -4,7 +4,8 @@ use glam::Vec3;
 use hemicube::bake::{BakeSettings, Quality, bake};
 use hemicube::base::progress::Unwatched;
 
-use crate::support::{gpu, scenes};
+use crate::support::device::gpu;
+use crate::support::scenes;
 
 /// Mean and worst relative deviation from the exact answer, over all vertices.
 #[test]
@@ -13,7 +14,7 @@ fn in_a_furnace_every_vertex_has_the_closed_form_light() {
     let (reflectance, exitance) = (Vec3::new(0.5, 0.7, 0.2), Vec3::new(1.0, 2.0, 3.0));
     let scene = scenes::furnace(reflectance, exitance);
     let settings = BakeSettings { element_size: Some(0.1), ..BakeSettings::preset(Quality::Draft) };
-    let bake = bake(&gpu, &scene, &BakeSettings { threshold: 1e-4, ..settings }, &Unwatched).unwrap();
+    let bake = bake(gpu, &scene, &BakeSettings { threshold: 1e-4, ..settings }, &Unwatched).unwrap();
     let exact = exitance / (Vec3::ONE - reflectance);
     let group = &bake.baked.light.groups[0];
     let mut worst = 0.0f32;

@@ -31,6 +31,16 @@ pub enum GpuError {
         /// What it said.
         cause: String,
     },
+    /// A picture that no texture can hold.
+    #[error("cannot draw a picture of {width}x{height} pixels: each side must be 1 to {limit} on this GPU")]
+    PictureSize {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// Largest side.
+        limit: u32,
+    },
     /// The device was lost or refused a read-back.
     #[error("the GPU did not answer: {0}")]
     Lost(String),

@@ -3,7 +3,13 @@
 //! wgpu is met here, in `form_factor::hemicube`, `render` and `viewer`, and nowhere else.
 
 pub mod context;
+pub mod material_buffers;
+pub mod mip;
 pub mod readback;
+pub mod scene_buffers;
 pub mod shaders;
+pub mod targets;
+pub mod textures;
 
 pub use context::{Gpu, GpuError};
+pub use scene_buffers::SceneBuffers;

@@ -20,8 +20,31 @@ macro_rules! shader {
 /// Item buffer: element ids seen from a hemicube.
 pub const ITEM_BUFFER: Shader = shader!("item_buffer", "item_buffer.wgsl");
 
+/// Surface pass: radiance of each visible point.
+pub const SURFACE: Shader = shader!("surface", "shared/frame.wgsl", "surface.wgsl");
+/// Metering: the exposure that suits a picture.
+pub const METER: Shader = shader!("meter", "shared/frame.wgsl", "shared/colour.wgsl", "meter.wgsl");
+/// Tone mapping of a picture with one sample a pixel.
+pub const TONEMAP: Shader = shader!(
+    "tonemap",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/fullscreen.wgsl",
+    "shared/samples_one.wgsl",
+    "tonemap.wgsl"
+);
+/// Tone mapping of a picture with several samples a pixel.
+pub const TONEMAP_SAMPLES: Shader = shader!(
+    "tonemap samples",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/fullscreen.wgsl",
+    "shared/samples_many.wgsl",
+    "tonemap.wgsl"
+);
+
 /// All shaders, for the test that validates each and for reloading.
-pub const ALL: &[&Shader] = &[&ITEM_BUFFER];
+pub const ALL: &[&Shader] = &[&ITEM_BUFFER, &SURFACE, &METER, &TONEMAP, &TONEMAP_SAMPLES];
 
 impl Shader {
     /// The WGSL text.

@@ -45,6 +45,7 @@ pub fn dark_scene(scene: &Scene, mesh: &PatchMesh) -> BakedScene {
         light_groups: scene.light_groups.clone(),
         irradiance: Vec::new(),
         notes: scene.notes.clone(),
+        dropped_triangles: scene.dropped_triangles,
     };
     BakedScene { scene, light }
 }

@@ -65,7 +65,7 @@ mod tests {
     fn the_antiderivatives_agree_with_the_integrands() {
         // One small pixel against the midpoint rule.
         let deltas = delta_form_factors(512);
-        let step = 2.0 / 512.0;
+        let step: f64 = 2.0 / 512.0;
         let (x, y) = (100.5 * step - 1.0, 300.5 * step - 1.0);
         let top = step * step / (PI * (1.0 + x * x + y * y).powi(2));
         assert!((f64::from(deltas[300 * 512 + 100]) / top - 1.0).abs() < 1e-4);

@@ -1,0 +1,37 @@
+// Bind group 0 of every pass: what one picture asks for. Written by src/render/frame.rs.
+
+const MAX_GROUPS: u32 = 8u;
+
+const SHADING_LIT: u32 = 0u;
+const SHADING_IRRADIANCE_ONLY: u32 = 1u;
+const SHADING_ALBEDO: u32 = 2u;
+const SHADING_NORMALS: u32 = 3u;
+
+const TONE_MAP_NEUTRAL: u32 = 0u;
+const TONE_MAP_LINEAR: u32 = 1u;
+
+struct Frame {
+    projection_from_world: mat4x4f,
+    // Factor on the light of each group, rgb.
+    group_weights: array<vec4f, MAX_GROUPS>,
+    // Radiance of an ideal white surface that is added everywhere.
+    ambient: vec3f,
+    // Factor on direct irradiance.
+    direct: f32,
+    // Display colour, linear, where nothing is hit.
+    background: vec3f,
+    // Factor on indirect irradiance.
+    indirect: f32,
+    // Power of two that keeps the scene's radiance within half floats; every HDR texture is scaled by it.
+    pre_exposure: f32,
+    // Displayed = radiance x exposure; 0 asks for the metered one.
+    exposure: f32,
+    tone_map: u32,
+    shading: u32,
+    metal_as_diffuse: u32,
+    num_groups: u32,
+    num_vertices: u32,
+    padding: u32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;

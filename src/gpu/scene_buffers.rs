@@ -1,0 +1,255 @@
+//! A lit scene on the device: triangles in batches of one material, and the light of their vertices.
+//!
+//! Positions, textures and materials stay as they are uploaded; only the light is written again, while a bake runs or
+//! when a lamp is dimmed by solving anew.
+
+use std::ops::Range;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{Vec2, Vec3};
+use wgpu::util::DeviceExt;
+
+use super::Gpu;
+use super::material_buffers::material_bind_groups;
+use crate::baked::{BakedScene, VertexLight};
+use crate::base::ids::MaterialId;
+use crate::scene::{AlphaMode, Scene};
+
+/// Radiance above which HDR textures, which are half floats, need scaling down.
+const COMFORTABLE_RADIANCE: f32 = 16_384.0;
+
+/// A lit scene on the device.
+pub struct SceneBuffers {
+    /// [`GpuVertex`] of each vertex [v].
+    pub vertices: wgpu::Buffer,
+    /// Three u32 a triangle, batch by batch.
+    pub indices: wgpu::Buffer,
+    /// Binds the irradiance as [`light_layout`] says.
+    pub light: wgpu::BindGroup,
+    /// Bind groups of the materials [m].
+    pub materials: Vec<wgpu::BindGroup>,
+    /// Triangles by material, those that blend last.
+    pub batches: Vec<Batch>,
+    /// Power of two that brings the scene's radiance into the range of half floats.
+    pub pre_exposure: f32,
+    irradiance: wgpu::Buffer,
+    num_groups: usize,
+    num_vertices: usize,
+}
+
+/// Triangles that are drawn in one call.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Batch {
+    /// Their part of the index buffer.
+    pub indices: Range<u32>,
+    /// Their material.
+    pub material: MaterialId,
+    /// How its alpha acts.
+    pub alpha_mode: AlphaMode,
+    /// Which faces exist.
+    pub faces: Faces,
+}
+
+/// Which faces of a batch's triangles are surfaces.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Faces {
+    /// The front; the back is solid but black.
+    Front,
+    /// The front, and another triangle in the same place is the back: a double-sided surface in a bake.
+    FrontOfTwins,
+    /// Both faces of one triangle: a double-sided surface that was not baked.
+    Both,
+}
+
+/// A vertex as the vertex buffer holds it.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+pub struct GpuVertex {
+    position: Vec3,
+    normal: Vec3,
+    uv: [Vec2; 2],
+    colour: [f32; 4],
+}
+
+impl GpuVertex {
+    /// Attributes of the vertex buffer: 0 position, 1 normal, 2 both coordinate sets, 3 colour.
+    pub const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+        array_stride: size_of::<GpuVertex>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4],
+    };
+}
+
+/// Layout of the light's bind group: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`.
+#[must_use]
+pub fn light_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("vertex light"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    })
+}
+
+impl SceneBuffers {
+    /// Uploads triangles, materials, textures (with mip maps) and light.
+    #[must_use]
+    pub fn new(gpu: &Gpu, baked: &BakedScene) -> Self {
+        let scene = &baked.scene;
+        let num_groups = scene.light_groups.len().max(baked.light.groups.len());
+        let irradiance = irradiance_buffer(gpu, num_groups, scene.vertices.len());
+        let (batches, indices) = batches(scene);
+        let buffers = Self {
+            vertices: vertex_buffer(gpu, scene),
+            indices: gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("scene indices"),
+                contents: bytemuck::cast_slice(&indices),
+                usage: wgpu::BufferUsages::INDEX,
+            }),
+            light: light_bind_group(gpu, &irradiance),
+            materials: material_bind_groups(gpu, scene),
+            batches,
+            pre_exposure: pre_exposure(baked),
+            irradiance,
+            num_groups,
+            num_vertices: scene.vertices.len(),
+        };
+        buffers.set_light(gpu, &baked.light);
+        buffers
+    }
+
+    /// Replaces the light; the mesh is the same, groups that `light` lacks keep theirs.
+    pub fn set_light(&self, gpu: &Gpu, light: &VertexLight) {
+        let part_size = (self.num_vertices * size_of::<Vec3>()) as u64;
+        let parts = light.groups.iter().take(self.num_groups).flat_map(|group| [&group.direct, &group.indirect]);
+        for (part, values) in parts.enumerate() {
+            assert_eq!(values.len(), self.num_vertices, "light of another mesh");
+            gpu.queue.write_buffer(&self.irradiance, part as u64 * part_size, bytemuck::cast_slice(values));
+        }
+    }
+
+    /// How many light groups the light has.
+    #[must_use]
+    pub fn num_groups(&self) -> usize {
+        self.num_groups
+    }
+
+    /// How many vertices the mesh has.
+    #[must_use]
+    pub fn num_vertices(&self) -> usize {
+        self.num_vertices
+    }
+}
+
+fn vertex_buffer(gpu: &Gpu, scene: &Scene) -> wgpu::Buffer {
+    let vertices: Vec<_> = scene
+        .vertices
+        .iter()
+        .map(|v| GpuVertex { position: v.position, normal: v.normal, uv: v.uv, colour: v.colour.to_array() })
+        .collect();
+    gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+        label: Some("scene vertices"),
+        contents: bytemuck::cast_slice(&vertices),
+        usage: wgpu::BufferUsages::VERTEX,
+    })
+}
+
+/// A buffer of zeros for all groups; never empty, so that it can be bound.
+fn irradiance_buffer(gpu: &Gpu, num_groups: usize, num_vertices: usize) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("vertex irradiance"),
+        size: ((2 * num_groups * num_vertices).max(1) * size_of::<Vec3>()) as u64,
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+fn light_bind_group(gpu: &Gpu, irradiance: &wgpu::Buffer) -> wgpu::BindGroup {
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("vertex light"),
+        layout: &light_layout(gpu),
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: irradiance.as_entire_binding() }],
+    })
+}
+
+/// Sorts the triangles by material, those that blend last, and cuts them into batches.
+fn batches(scene: &Scene) -> (Vec<Batch>, Vec<u32>) {
+    let mut triangles: Vec<_> = scene.triangles.iter().collect();
+    let blends = |material: MaterialId| scene.materials[material.index()].alpha_mode == AlphaMode::Blend;
+    triangles.sort_by_key(|triangle| (blends(triangle.material), triangle.material));
+    let has_twins = triangles.iter().any(|triangle| triangle.is_back_side);
+    let mut batches = Vec::new();
+    let mut start = 0;
+    for same in triangles.chunk_by(|a, b| a.material == b.material) {
+        let end = start + 3 * same.len() as u32;
+        let material = &scene.materials[same[0].material.index()];
+        let faces = match (material.double_sided, has_twins) {
+            (false, _) => Faces::Front,
+            (true, true) => Faces::FrontOfTwins,
+            (true, false) => Faces::Both,
+        };
+        batches.push(Batch { indices: start..end, material: same[0].material, alpha_mode: material.alpha_mode, faces });
+        start = end;
+    }
+    (batches, triangles.iter().flat_map(|triangle| triangle.vertices).collect())
+}
+
+/// Brings the brightest lamp and the brightest lit white surface below [`COMFORTABLE_RADIANCE`]; 1 where they are.
+fn pre_exposure(baked: &BakedScene) -> f32 {
+    let lamps = baked.scene.materials.iter().map(|material| material.emission.max_element());
+    let lit = baked.light.groups.iter().flat_map(|group| group.direct.iter().chain(&group.indirect));
+    let surfaces = lit.map(|irradiance| irradiance.max_element() / std::f32::consts::PI);
+    let peak = lamps.chain(surfaces).fold(0.0, f32::max);
+    (COMFORTABLE_RADIANCE / peak).log2().floor().min(0.0).exp2()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::ids::InstanceId;
+    use crate::scene::{Material, Triangle};
+
+    fn triangle(material: u32, is_back_side: bool) -> Triangle {
+        Triangle { vertices: [material; 3], material: MaterialId(material), instance: InstanceId(0), is_back_side }
+    }
+
+    fn scene_of(modes: &[(AlphaMode, bool)], triangles: Vec<Triangle>) -> Scene {
+        let material = |&(alpha_mode, double_sided)| Material { alpha_mode, double_sided, ..Material::default() };
+        Scene { materials: modes.iter().map(material).collect(), triangles, ..Scene::default() }
+    }
+
+    #[test]
+    fn blending_triangles_are_drawn_last() {
+        let modes = [(AlphaMode::Blend, false), (AlphaMode::Opaque, false)];
+        let scene = scene_of(&modes, vec![triangle(0, false), triangle(1, false), triangle(0, false)]);
+        let (batches, indices) = batches(&scene);
+        assert_eq!(indices, [1, 1, 1, 0, 0, 0, 0, 0, 0]);
+        assert_eq!(batches.iter().map(|b| b.indices.clone()).collect::<Vec<_>>(), [0..3, 3..9]);
+    }
+
+    #[test]
+    fn double_sided_triangles_are_culled_only_where_their_twins_exist() {
+        let modes = [(AlphaMode::Opaque, true), (AlphaMode::Opaque, false)];
+        let faces = |triangles| batches(&scene_of(&modes, triangles)).0.iter().map(|b| b.faces).collect::<Vec<_>>();
+        assert_eq!(faces(vec![triangle(0, false), triangle(1, false)]), [Faces::Both, Faces::Front]);
+        assert_eq!(faces(vec![triangle(0, false), triangle(0, true)]), [Faces::FrontOfTwins]);
+    }
+
+    #[test]
+    fn only_very_bright_scenes_are_scaled_down_and_by_a_power_of_two() {
+        let lamp = |nit| {
+            let material = Material { emission: Vec3::splat(nit), ..Material::default() };
+            BakedScene { scene: Scene { materials: vec![material], ..Scene::default() }, ..BakedScene::default() }
+        };
+        assert_eq!(pre_exposure(&lamp(0.0)), 1.0);
+        assert_eq!(pre_exposure(&lamp(10_000.0)), 1.0);
+        assert_eq!(pre_exposure(&lamp(1.6e9)), 2f32.powi(-17));
+    }
+}

@@ -1,0 +1,51 @@
+//! The textures that one picture is drawn into.
+
+use super::Gpu;
+
+/// Radiance times pre-exposure, premultiplied by coverage; blendable and multisampled everywhere.
+pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Reversed depth: 1 at the near plane, 0 infinitely far; floats then resolve every distance alike.
+pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// The textures that one picture is drawn into.
+pub struct Targets {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// One sample a pixel.
+    pub hdr: wgpu::Texture,
+    /// View of `hdr`.
+    pub hdr_view: wgpu::TextureView,
+    /// Several samples a pixel, where there are several.
+    pub samples: Option<wgpu::TextureView>,
+    /// Depth of each sample.
+    pub depth: wgpu::TextureView,
+}
+
+impl Targets {
+    /// Targets of `size` pixels with `samples` samples each.
+    #[must_use]
+    pub fn new(gpu: &Gpu, size: [u32; 2], samples: u32) -> Self {
+        let drawn = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+        let texture = |label, format, sample_count, usage| {
+            gpu.device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+                mip_level_count: 1,
+                sample_count,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage,
+                view_formats: &[],
+            })
+        };
+        let hdr = texture("HDR", HDR_FORMAT, 1, drawn | wgpu::TextureUsages::COPY_SRC);
+        let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        Self {
+            size,
+            hdr_view: view(&hdr),
+            hdr,
+            samples: (samples > 1).then(|| view(&texture("HDR samples", HDR_FORMAT, samples, drawn))),
+            depth: view(&texture("depth", DEPTH_FORMAT, samples, wgpu::TextureUsages::RENDER_ATTACHMENT)),
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! The frame: the passes that make one picture, in order.
+
+use super::frame_uniform::{frame_bind_group, frame_layout};
+use super::meter::Meter;
+use super::surface::SurfacePass;
+use super::tonemap::ToneMapPass;
+use super::{Look, View};
+use crate::gpu::targets::Targets;
+use crate::gpu::{Gpu, SceneBuffers};
+
+/// Draws pictures of one output format.
+pub struct Renderer {
+    frame_layout: wgpu::BindGroupLayout,
+    surface: SurfacePass,
+    meter: Meter,
+    tone_map: ToneMapPass,
+    samples: u32,
+    targets: Option<Targets>,
+}
+
+impl Renderer {
+    /// A renderer into textures of `output_format`, with `samples` samples a pixel (1 or 4).
+    #[must_use]
+    pub fn new(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32) -> Self {
+        let frame_layout = frame_layout(gpu);
+        Self {
+            surface: SurfacePass::new(gpu, &frame_layout, samples),
+            meter: Meter::new(gpu, &frame_layout),
+            tone_map: ToneMapPass::new(gpu, &frame_layout, output_format, samples),
+            frame_layout,
+            samples,
+            targets: None,
+        }
+    }
+
+    /// Records a picture of `scene` into the whole of `target`, which is `size` pixels wide and high.
+    #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, target, size) and what (scene, view, look)")]
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+        size: [u32; 2],
+        scene: &SceneBuffers,
+        view: &View,
+        look: &Look,
+    ) {
+        let targets = match self.targets.take() {
+            Some(targets) if targets.size == size => targets,
+            _ => Targets::new(gpu, size, self.samples),
+        };
+        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
+
+        // Radiance from every visible point towards the eye, several samples a pixel, and their mean.
+        self.surface.draw(encoder, &targets, &frame, scene, look);
+        // The exposure that suits this picture, unless one is given.
+        if look.fixed_exposure().is_none() {
+            self.meter.draw(gpu, encoder, &targets, &frame);
+        }
+        // Exposure, tone curve, sRGB, dither.
+        self.tone_map.draw(gpu, encoder, &targets, &frame, self.meter.exposure(), target);
+
+        self.targets = Some(targets);
+    }
+
+    /// The linear picture that was drawn last, before exposure, scaled by [`SceneBuffers::pre_exposure`].
+    pub(super) fn hdr(&self) -> Option<&wgpu::Texture> {
+        self.targets.as_ref().map(|targets| &targets.hdr)
+    }
+}

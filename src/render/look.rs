@@ -1,0 +1,99 @@
+//! How a picture of the same light is to look.
+
+use glam::Vec3;
+
+/// How bright the picture is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Exposure {
+    /// Metered from the picture itself.
+    Auto,
+    /// Displayed = radiance x 2^EV.
+    Ev(f32),
+}
+
+/// How radiance beyond white is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToneMap {
+    /// Khronos PBR Neutral: true colours up to 0.8 of white, highlights roll off without a change of hue.
+    Neutral,
+    /// Cut off at white.
+    Linear,
+}
+
+/// What is shown of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shading {
+    /// The light it sends: emission and reflection.
+    Lit,
+    /// The light it receives, as ideal white paint would show it: E / pi.
+    IrradianceOnly,
+    /// Its reflectance, shown as it is, without exposure.
+    Albedo,
+    /// Its shading normal, 0.5 + 0.5 n, shown as it is.
+    Normals,
+}
+
+/// How a picture of the same light is to look.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Look {
+    /// How bright the picture is.
+    pub exposure: Exposure,
+    /// How radiance beyond white is shown.
+    pub tone_map: ToneMap,
+    /// What is shown of a surface.
+    pub shading: Shading,
+    /// Factor on direct irradiance.
+    pub direct: f32,
+    /// Factor on indirect irradiance.
+    pub indirect: f32,
+    /// Radiance that ideal white paint shows everywhere in addition: it makes unlit scenes visible.
+    pub ambient: Vec3,
+    /// Factor on the light of each group [g], and on the glow of its lamps; 1 where the list ends early.
+    pub group_weights: Vec<Vec3>,
+    /// Linear display colour where nothing is seen, untouched by exposure.
+    pub background: Vec3,
+    /// Metals, which reflect nothing diffusely and would be black, are shown as if their surroundings were even: with
+    /// their base colour as reflectance. False shows only the light that was solved.
+    pub metal_as_diffuse: bool,
+    /// Single-sided surfaces are invisible from behind, so that one can look into a room from outside; false shows
+    /// their backs black, as light meets them.
+    pub cull_back: bool,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Self {
+            exposure: Exposure::Auto,
+            tone_map: ToneMap::Neutral,
+            shading: Shading::Lit,
+            direct: 1.0,
+            indirect: 1.0,
+            ambient: Vec3::ZERO,
+            group_weights: Vec::new(),
+            background: Vec3::splat(0.02),
+            metal_as_diffuse: true,
+            cull_back: true,
+        }
+    }
+}
+
+impl Look {
+    /// Factor of displayed colour on radiance, or none where it is to be metered.
+    #[must_use]
+    pub fn fixed_exposure(&self) -> Option<f32> {
+        match (self.shading, self.exposure) {
+            (Shading::Albedo | Shading::Normals, _) => Some(1.0),
+            (_, Exposure::Ev(ev)) => Some(ev.exp2()),
+            (_, Exposure::Auto) => None,
+        }
+    }
+
+    /// The tone map in force: what is no light is shown as it is.
+    #[must_use]
+    pub fn tone_map_in_force(&self) -> ToneMap {
+        match self.shading {
+            Shading::Lit | Shading::IrradianceOnly => self.tone_map,
+            Shading::Albedo | Shading::Normals => ToneMap::Linear,
+        }
+    }
+}

@@ -1,0 +1,103 @@
+//! Metering: the exposure that suits a picture, found on the GPU so that a live frame never waits for it.
+
+use crate::gpu::targets::Targets;
+use crate::gpu::{Gpu, shaders};
+
+/// `NUM_BINS` of shaders/meter.wgsl.
+const NUM_BINS: u64 = 256;
+/// Pixels on a side of a compute group.
+const TILE: u32 = 16;
+
+/// Metering.
+pub struct Meter {
+    layout: wgpu::BindGroupLayout,
+    count: wgpu::ComputePipeline,
+    settle: wgpu::ComputePipeline,
+    histogram: wgpu::Buffer,
+    exposure: wgpu::Buffer,
+}
+
+impl Meter {
+    /// Pipelines, histogram and result.
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
+        let module = shaders::METER.module(&gpu.device);
+        let layout = bind_group_layout(gpu);
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("meter"),
+            bind_group_layouts: &[Some(frame_layout), Some(&layout)],
+            immediate_size: 0,
+        });
+        let pipeline = |entry_point| {
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some(&format!("meter, {entry_point}")),
+                layout: Some(&pipeline_layout),
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: Default::default(),
+                cache: None,
+            })
+        };
+        Self {
+            count: pipeline("count"),
+            settle: pipeline("settle"),
+            histogram: storage(gpu, "luminance histogram", NUM_BINS * 4),
+            exposure: storage(gpu, "metered exposure", 4),
+            layout,
+        }
+    }
+
+    /// One f32: displayed = radiance x this.
+    pub fn exposure(&self) -> &wgpu::Buffer {
+        &self.exposure
+    }
+
+    /// Meters the HDR picture.
+    pub fn draw(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, targets: &Targets, frame: &wgpu::BindGroup) {
+        let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("meter"),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&targets.hdr_view) },
+                wgpu::BindGroupEntry { binding: 1, resource: self.histogram.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 2, resource: self.exposure.as_entire_binding() },
+            ],
+        });
+        encoder.clear_buffer(&self.histogram, 0, None);
+        let mut pass =
+            encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("meter"), timestamp_writes: None });
+        pass.set_bind_group(0, frame, &[]);
+        pass.set_bind_group(1, &bindings, &[]);
+        pass.set_pipeline(&self.count);
+        pass.dispatch_workgroups(targets.size[0].div_ceil(TILE), targets.size[1].div_ceil(TILE), 1);
+        pass.set_pipeline(&self.settle);
+        pass.dispatch_workgroups(1, 1, 1);
+    }
+}
+
+fn storage(gpu: &Gpu, label: &str, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size,
+        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
+
+fn bind_group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let entry =
+        |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::COMPUTE, ty, count: None };
+    let buffer = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Storage { read_only: false },
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let texture = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: false },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("meter"),
+        entries: &[entry(0, texture), entry(1, buffer), entry(2, buffer)],
+    })
+}

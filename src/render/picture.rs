@@ -1,0 +1,173 @@
+//! A picture without a window, and its file.
+
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use super::{Look, RenderError, Renderer, View};
+use crate::baked::BakedScene;
+use crate::gpu::readback::read_texture;
+use crate::gpu::{Gpu, GpuError, SceneBuffers};
+use crate::scene::Camera;
+
+/// Samples a pixel of a picture for people.
+const SAMPLES: u32 = 4;
+
+/// A finished picture, row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Pixels across.
+    pub width: u32,
+    /// Pixels down.
+    pub height: u32,
+    /// Linear radiance before exposure, premultiplied by the fourth channel, the share of the pixel that is covered.
+    pub radiance: Vec<[f32; 4]>,
+    /// RGBA bytes as displayed, sRGB.
+    pub display: Vec<u8>,
+}
+
+/// A picture of `size` pixels, with smooth edges.
+///
+/// # Errors
+/// The size is more than the GPU can draw, or the GPU was lost.
+pub fn picture(
+    gpu: &Gpu,
+    baked: &BakedScene,
+    camera: &Camera,
+    size: [u32; 2],
+    look: &Look,
+) -> Result<Picture, GpuError> {
+    picture_with_samples(gpu, baked, camera, size, look, SAMPLES)
+}
+
+/// A picture of `size` pixels with `samples` samples a pixel, 1 or 4.
+///
+/// # Errors
+/// As [`picture`].
+pub fn picture_with_samples(
+    gpu: &Gpu,
+    baked: &BakedScene,
+    camera: &Camera,
+    size: [u32; 2],
+    look: &Look,
+    samples: u32,
+) -> Result<Picture, GpuError> {
+    let limit = gpu.device.limits().max_texture_dimension_2d;
+    if size.iter().any(|&side| side == 0 || side > limit) {
+        return Err(GpuError::PictureSize { width: size[0], height: size[1], limit });
+    }
+    let scene = SceneBuffers::new(gpu, baked);
+    let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, samples);
+    let target = display_target(gpu, size);
+    let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
+    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, &scene, &view, look);
+    gpu.queue.submit([encoder.finish()]);
+
+    let display = read_texture(gpu, &target, 4)?;
+    let hdr = renderer.hdr().expect("a picture has just been drawn");
+    let radiance = radiance_from_hdr(&read_texture(gpu, hdr, 8)?, scene.pre_exposure);
+    Ok(Picture { width: size[0], height: size[1], radiance, display })
+}
+
+fn display_target(gpu: &Gpu, size: [u32; 2]) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("display"),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba8Unorm,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
+/// Undoes half floats and pre-exposure.
+fn radiance_from_hdr(bytes: &[u8], pre_exposure: f32) -> Vec<[f32; 4]> {
+    let (pixels, _) = bytes.as_chunks::<8>();
+    let channel = |pixel: &[u8; 8], i: usize| f32_from_half(u16::from_le_bytes([pixel[2 * i], pixel[2 * i + 1]]));
+    let radiance = |pixel: &[u8; 8]| {
+        let [r, g, b] = std::array::from_fn(|i| channel(pixel, i) / pre_exposure);
+        [r, g, b, channel(pixel, 3)]
+    };
+    pixels.iter().map(radiance).collect()
+}
+
+/// Value of an IEEE 754 half float.
+fn f32_from_half(bits: u16) -> f32 {
+    let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
+    let exponent = i32::from(bits >> 10 & 0x1f);
+    let fraction = f32::from(bits & 0x3ff);
+    sign * match exponent {
+        0 => fraction * 2f32.powi(-24),
+        31 if fraction == 0.0 => f32::INFINITY,
+        31 => f32::NAN,
+        _ => (1024.0 + fraction) * 2f32.powi(exponent - 25),
+    }
+}
+
+impl Picture {
+    /// Writes what is displayed as `.png`, or the linear radiance as `.exr`.
+    ///
+    /// The file appears under its name only when it is whole.
+    ///
+    /// # Errors
+    /// The name ends in neither, or the file cannot be written.
+    pub fn save(&self, path: &Path) -> Result<(), RenderError> {
+        match extension(path).as_deref() {
+            Some("png") => write_image(path, image::ImageFormat::Png, &self.displayed()),
+            Some("exr") => write_image(path, image::ImageFormat::OpenExr, &self.linear()),
+            _ => Err(RenderError::UnknownExtension { path: path.to_owned() }),
+        }
+    }
+
+    fn displayed(&self) -> image::DynamicImage {
+        let opaque: Vec<u8> = self.display.as_chunks::<4>().0.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+        image::RgbImage::from_raw(self.width, self.height, opaque).expect("three bytes a pixel").into()
+    }
+
+    fn linear(&self) -> image::DynamicImage {
+        let rgb: Vec<f32> = self.radiance.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
+        image::Rgb32FImage::from_raw(self.width, self.height, rgb).expect("three floats a pixel").into()
+    }
+}
+
+/// Lower-case extension of a file name.
+pub(super) fn extension(path: &Path) -> Option<String> {
+    path.extension().map(|extension| extension.to_string_lossy().to_lowercase())
+}
+
+fn write_image(path: &Path, format: image::ImageFormat, image: &image::DynamicImage) -> Result<(), RenderError> {
+    let refused = |cause| RenderError::Write { path: path.to_owned(), cause };
+    // In the same folder, so that the renaming is one step of the file system.
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(refused)?;
+    let mut writer = BufWriter::new(&mut file);
+    image.write_to(&mut writer, format).map_err(|cause| RenderError::Encode { path: path.to_owned(), cause })?;
+    writer.flush().map_err(refused)?;
+    drop(writer);
+    file.persist(path).map_err(|error| refused(error.error))?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_floats_have_their_value() {
+        let known = [(0x0000, 0.0), (0x3c00, 1.0), (0xc000, -2.0), (0x7bff, 65504.0), (0x0001, 5.960_464_5e-8)];
+        for (bits, value) in known {
+            assert_eq!(f32_from_half(bits), value, "{bits:#x}");
+        }
+        assert_eq!(f32_from_half(0x3555), 0.333_251_95);
+        assert!(f32_from_half(0x7c00).is_infinite() && f32_from_half(0x7e00).is_nan());
+    }
+
+    #[test]
+    fn a_file_name_without_a_known_ending_is_refused() {
+        let picture = Picture { width: 1, height: 1, radiance: vec![[0.0; 4]], display: vec![0; 4] };
+        let message = picture.save(Path::new("light.tiff")).expect_err("no such format").to_string();
+        assert!(message.contains("light.tiff") && message.contains(".png"), "{message}");
+    }
+}

@@ -1,0 +1,182 @@
+//! Surface pass: radiance of every visible point, with the light of the vertices.
+
+use super::Look;
+use crate::gpu::material_buffers::material_layout;
+use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex, light_layout};
+use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
+use crate::gpu::{Gpu, SceneBuffers, shaders};
+use crate::scene::AlphaMode;
+
+/// Colour is premultiplied and coverage adds up under it.
+const PREMULTIPLIED: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+
+/// A mask's samples are solid, but their alpha is the coverage of the pixel: it must not thin what lies behind.
+const KEEP_LARGER_ALPHA: wgpu::BlendState = wgpu::BlendState {
+    color: wgpu::BlendComponent::REPLACE,
+    alpha: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Max,
+    },
+};
+
+/// A kind of alpha as a pipeline knows it.
+struct AlphaVariant {
+    label: &'static str,
+    /// `ALPHA_MODE` of the shader.
+    shader_mode: f64,
+    blend: Option<wgpu::BlendState>,
+    writes_depth: bool,
+    to_coverage: bool,
+}
+
+const OPAQUE: AlphaVariant =
+    AlphaVariant { label: "opaque", shader_mode: 0.0, blend: None, writes_depth: true, to_coverage: false };
+const MASK: AlphaVariant = AlphaVariant {
+    label: "mask",
+    shader_mode: 1.0,
+    blend: Some(KEEP_LARGER_ALPHA),
+    writes_depth: true,
+    to_coverage: true,
+};
+const BLEND: AlphaVariant = AlphaVariant {
+    label: "blend",
+    shader_mode: 2.0,
+    blend: Some(PREMULTIPLIED),
+    writes_depth: false,
+    to_coverage: false,
+};
+
+/// The pipelines of one kind of alpha.
+struct Pipelines {
+    culled: wgpu::RenderPipeline,
+    two_faced: wgpu::RenderPipeline,
+}
+
+/// Surface pass.
+pub struct SurfacePass {
+    opaque: Pipelines,
+    mask: Pipelines,
+    blend: Pipelines,
+}
+
+impl SurfacePass {
+    /// Pipelines for HDR targets with `samples` samples a pixel.
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32) -> Self {
+        let module = shaders::SURFACE.module(&gpu.device);
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("surface"),
+            bind_group_layouts: &[Some(frame_layout), Some(&light_layout(gpu)), Some(&material_layout(gpu))],
+            immediate_size: 0,
+        });
+        let pipelines = |alpha: &AlphaVariant| Pipelines {
+            culled: pipeline(gpu, &layout, &module, samples, alpha, Some(wgpu::Face::Back)),
+            two_faced: pipeline(gpu, &layout, &module, samples, alpha, None),
+        };
+        Self { opaque: pipelines(&OPAQUE), mask: pipelines(&MASK), blend: pipelines(&BLEND) }
+    }
+
+    /// Clears the targets and draws the scene into them.
+    pub fn draw(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        frame: &wgpu::BindGroup,
+        scene: &SceneBuffers,
+        look: &Look,
+    ) {
+        let mut pass = begin(encoder, targets);
+        pass.set_bind_group(0, frame, &[]);
+        pass.set_bind_group(1, &scene.light, &[]);
+        if !scene.batches.is_empty() {
+            pass.set_vertex_buffer(0, scene.vertices.slice(..));
+            pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
+        }
+        for batch in &scene.batches {
+            pass.set_pipeline(self.pipeline_of(batch, look));
+            pass.set_bind_group(2, &scene.materials[batch.material.index()], &[]);
+            pass.draw_indexed(batch.indices.clone(), 0, 0..1);
+        }
+    }
+
+    fn pipeline_of(&self, batch: &Batch, look: &Look) -> &wgpu::RenderPipeline {
+        let pipelines = match batch.alpha_mode {
+            AlphaMode::Opaque => &self.opaque,
+            AlphaMode::Mask { .. } => &self.mask,
+            AlphaMode::Blend => &self.blend,
+        };
+        let culls = match batch.faces {
+            Faces::Front => look.cull_back,
+            Faces::FrontOfTwins => true,
+            Faces::Both => false,
+        };
+        if culls { &pipelines.culled } else { &pipelines.two_faced }
+    }
+}
+
+/// Begins the pass with nothing drawn: no light, no coverage, infinitely far.
+fn begin<'e>(encoder: &'e mut wgpu::CommandEncoder, targets: &Targets) -> wgpu::RenderPass<'e> {
+    let (view, resolve_target) = match &targets.samples {
+        Some(samples) => (samples, Some(&targets.hdr_view)),
+        None => (&targets.hdr_view, None),
+    };
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("surface"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view,
+            depth_slice: None,
+            resolve_target,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: &targets.depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    })
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+    samples: u32,
+    alpha: &AlphaVariant,
+    cull_mode: Option<wgpu::Face>,
+) -> wgpu::RenderPipeline {
+    let to_coverage = alpha.to_coverage && samples > 1;
+    let constants = [("ALPHA_MODE", alpha.shader_mode), ("ALPHA_TO_COVERAGE", f64::from(u8::from(to_coverage)))];
+    let target = wgpu::ColorTargetState { format: HDR_FORMAT, blend: alpha.blend, write_mask: wgpu::ColorWrites::ALL };
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(&format!("surface, {}, {}", alpha.label, if cull_mode.is_some() { "culled" } else { "two-faced" })),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[Some(GpuVertex::LAYOUT)],
+        },
+        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(alpha.writes_depth),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: wgpu::MultisampleState {
+            count: samples,
+            alpha_to_coverage_enabled: to_coverage,
+            ..Default::default()
+        },
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some("fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            targets: &[Some(target)],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

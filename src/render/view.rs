@@ -1,0 +1,76 @@
+//! From where a picture is taken.
+
+use glam::camera::rh::proj::directx;
+use glam::{Mat4, Vec3};
+
+use crate::scene::{Camera, Projection};
+
+/// Near plane of a perspective view, metres; reversed depth stays exact however near it is.
+const NEAR: f32 = 1e-3;
+/// Depth of an orthographic view, metres.
+const ORTHOGRAPHIC_DEPTH: f32 = 1e3;
+
+/// From where a picture is taken.
+///
+/// Depth is reversed: 1 at the near plane, 0 at infinity. Passes clear it to 0 and compare with Greater; a point at
+/// infinity (w = 0) is never clipped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Eye point, metres.
+    pub camera_position: Vec3,
+    /// Matrix from world space to view space.
+    pub view_from_world: Mat4,
+    /// Matrix from view space to clip space.
+    pub projection_from_view: Mat4,
+}
+
+impl View {
+    /// What `camera` sees in a picture `aspect` times as wide as high.
+    #[must_use]
+    pub fn from_camera(camera: &Camera, aspect: f32) -> Self {
+        let projection_from_view = match camera.projection {
+            Projection::Perspective { fov_y } => directx::perspective_infinite_reverse(fov_y, aspect, NEAR),
+            Projection::Orthographic { half_height } => {
+                let half_width = half_height * aspect;
+                // Far before near reverses the depth.
+                directx::orthographic(-half_width, half_width, -half_height, half_height, ORTHOGRAPHIC_DEPTH, 0.0)
+            }
+        };
+        Self { camera_position: camera.position, view_from_world: camera.view_from_world(), projection_from_view }
+    }
+
+    /// Matrix from world space to clip space.
+    #[must_use]
+    pub fn projection_from_world(&self) -> Mat4 {
+        self.projection_from_view * self.view_from_world
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn depth(view: &View, point: Vec3) -> f32 {
+        view.projection_from_world().project_point3(point).z
+    }
+
+    #[test]
+    fn depth_is_one_near_and_falls_to_zero() {
+        let camera = Camera::looking_at("test", Vec3::new(1.0, 2.0, 3.0), Vec3::new(1.0, 2.0, 0.0), 1.0);
+        let view = View::from_camera(&camera, 1.5);
+        let at = |distance| depth(&view, Vec3::new(1.0, 2.0, 3.0 - distance));
+        assert!((at(NEAR) - 1.0).abs() < 1e-3, "{}", at(NEAR));
+        assert!(at(1.0) > at(2.0) && at(2.0) > at(1e6) && at(1e6) > 0.0);
+    }
+
+    #[test]
+    fn orthographic_depth_is_reversed_too_and_height_is_kept() {
+        let mut camera = Camera::looking_at("test", Vec3::ZERO, Vec3::NEG_Z, 1.0);
+        camera.projection = Projection::Orthographic { half_height: 2.0 };
+        let view = View::from_camera(&camera, 1.0);
+        assert!((depth(&view, Vec3::ZERO) - 1.0).abs() < 1e-6);
+        assert!(depth(&view, Vec3::NEG_Z) > depth(&view, 2.0 * Vec3::NEG_Z));
+        let top = view.projection_from_world().project_point3(Vec3::new(0.0, 2.0, -5.0));
+        assert!((top.y - 1.0).abs() < 1e-6, "{top}");
+    }
+}

@@ -1,0 +1,20 @@
+//! The device of the tests.
+
+use std::sync::LazyLock;
+
+use hemicube::gpu::Gpu;
+
+static GPU: LazyLock<Option<Gpu>> = LazyLock::new(|| match Gpu::headless() {
+    Ok(gpu) => Some(gpu),
+    Err(error) if std::env::var_os("CI").is_some() => panic!("{error}"),
+    Err(error) => {
+        println!("skipped: {error}");
+        None
+    }
+});
+
+/// The one device that all tests share; none on a desk without adapter, where the test is to return. Fails where the
+/// environment variable CI is set.
+pub fn gpu() -> Option<&'static Gpu> {
+    GPU.as_ref()
+}
