@@ -1,1 +1,3 @@
+//! All tests that go through the public door, in one binary.
 
+mod loader;

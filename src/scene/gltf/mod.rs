@@ -27,8 +27,8 @@ mod texture;
 
 use std::path::{Path, PathBuf};
 
-use gltf::json::{Index, Node, Root};
 use glam::DAffine3;
+use gltf::json::{Index, Node, Root};
 
 pub use error::{Cause, LoadError};
 
@@ -145,7 +145,58 @@ fn note_bright_materials(scene: &mut Scene) {
     for (m, reflectance) in doctor::mean_reflectances(scene).into_iter().enumerate() {
         if reflectance > MAX_REFLECTANCE {
             let name = &scene.materials[m].name;
-            scene.notes.push(format!("material {name:?} reflects {reflectance:.2}; it is clamped to {MAX_REFLECTANCE}"));
+            scene
+                .notes
+                .push(format!("material {name:?} reflects {reflectance:.2}; it is clamped to {MAX_REFLECTANCE}"));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::fixture::Fixture;
+    use super::*;
+
+    #[test]
+    fn a_scene_is_chosen_by_name_or_index() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["scenes"] = json!([{"nodes": [0]}, {"name": "empty"}]);
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let file = folder.path().join("two.gltf");
+        std::fs::write(&file, fixture.to_bytes()).expect("it can be written");
+        let load_part = |part: &str| load(Path::new(&format!("{}{part}", file.display())));
+        let triangles = |part: &str| load_part(part).expect("there is such a scene").triangles.len();
+        assert_eq!([triangles(""), triangles("#0"), triangles("#1"), triangles("#empty")], [1, 1, 0, 0]);
+        let error = load_part("#attic").expect_err("there is no such scene").to_string();
+        assert!(error.ends_with("it has no scene \"attic\"; there is #0, #1 \"empty\""), "{error}");
+    }
+
+    #[test]
+    fn without_scenes_all_roots_are_shown() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"] = json!([{"mesh": 0}, {"children": [0]}, {"mesh": 0}]);
+        let root = fixture.json.as_object_mut().expect("an object");
+        root.remove("scene");
+        root.remove("scenes");
+        assert_eq!(fixture.load().triangles.len(), 2);
+    }
+
+    #[test]
+    fn indices_that_point_nowhere_say_who_and_what() {
+        let cases = [
+            ("/scene", json!(7), "the file refers to scene 7"),
+            ("/scenes/0/nodes/0", json!(7), "the node tree refers to node 7"),
+            ("/nodes/0/mesh", json!(7), "node 0 refers to mesh 7"),
+            ("/meshes/0/primitives/0/attributes/POSITION", json!(7), "mesh 0, primitive 0 refers to accessor 7"),
+            ("/accessors/0/bufferView", json!(7), "accessor 0 refers to buffer view 7"),
+            ("/bufferViews/0/buffer", json!(7), "buffer view 0 refers to buffer 7"),
+        ];
+        for (place, value, expected) in cases {
+            let mut fixture = Fixture::triangle();
+            *fixture.json.pointer_mut(place).expect("the place exists") = value;
+            assert!(fixture.error().contains(expected), "{}", fixture.error());
         }
     }
 }

@@ -2,9 +2,9 @@
 
 use std::collections::HashMap;
 
+use glam::{DAffine3, DMat4, DQuat, DVec3};
 use gltf::json::mesh::Mesh;
 use gltf::json::{Index, Node};
-use glam::{DAffine3, DMat4, DQuat, DVec3};
 
 use super::document::Document;
 use super::error::Cause;
@@ -136,12 +136,12 @@ impl<'a> Walk<'a> {
     /// The filled scene with notes on what was passed over, and the light definition behind each of its lights [l].
     pub fn finish(mut self) -> (Scene, Vec<usize>) {
         let counts = [
-            (self.oddities.not_triangles, "primitives of points or lines, or without positions, are ignored"),
-            (self.oddities.morphed, "primitives have morph targets: their base shape is used"),
-            (self.oddities.skinned, "skinned meshes are shown unposed"),
-            (self.scene.dropped_triangles, "triangles without area were dropped"),
+            ("primitives of points or lines, or without positions, ignored", self.oddities.not_triangles),
+            ("primitives with morph targets, shown in their base shape", self.oddities.morphed),
+            ("skinned meshes, shown unposed", self.oddities.skinned),
+            ("triangles without area, dropped", self.scene.dropped_triangles),
         ];
-        let notes = counts.into_iter().filter(|&(count, _)| count > 0).map(|(count, what)| format!("{count} {what}"));
+        let notes = counts.into_iter().filter(|&(_, count)| count > 0).map(|(what, count)| format!("{what}: {count}"));
         self.scene.notes.extend(notes);
         (self.scene, self.light_definitions)
     }
@@ -176,4 +176,51 @@ fn parent_from_node(node: &Node) -> DAffine3 {
         if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY },
         node.translation.map_or(DVec3::ZERO, vector),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::super::fixture::Fixture;
+
+    #[test]
+    fn loops_and_second_parents_are_refused() {
+        let loops = json!([{"children": [1]}, {"children": [0]}]);
+        let second_parent = json!([{"children": [1, 2]}, {"children": [2]}, {"mesh": 0}]);
+        for (nodes, culprit) in [(loops, "node 0"), (second_parent, "node 2")] {
+            let mut fixture = Fixture::triangle();
+            fixture.json["nodes"] = nodes;
+            assert!(fixture.error().contains(&format!("{culprit} occurs twice")), "{}", fixture.error());
+        }
+    }
+
+    #[test]
+    fn a_bottomless_tree_is_refused() {
+        let mut fixture = Fixture::triangle();
+        let chain: Vec<Value> = (1..=1000).map(|child| json!({"children": [child]})).collect();
+        fixture.json["nodes"] = json!(chain);
+        fixture.json["nodes"].as_array_mut().expect("a list").push(json!({"mesh": 0}));
+        assert!(fixture.error().contains("deeper than 256"), "{}", fixture.error());
+    }
+
+    #[test]
+    fn transforms_go_down_the_tree() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"] = json!([{"scale": [2, 2, 2], "children": [1]}, {"translation": [1, 0, 0], "mesh": 0}]);
+        assert_eq!(fixture.load().vertices[1].position.x, 4.0);
+    }
+
+    #[test]
+    fn hidden_nodes_are_skipped() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"][0]["extensions"] = json!({"KHR_node_visibility": {"visible": false}});
+        assert!(fixture.load().triangles.is_empty());
+    }
+
+    #[test]
+    fn a_primitive_without_material_gets_the_white_metal_of_the_standard() {
+        let scene = Fixture::triangle().load();
+        assert_eq!((scene.materials.len(), scene.materials[0].metallic), (1, 1.0));
+    }
 }

@@ -140,3 +140,84 @@ fn give_missing_normals(scene: &mut Scene, vertices: [u32; 3], normal: Vec3) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::super::fixture::Fixture;
+    use super::*;
+    use crate::base::ids::TriangleId;
+
+    fn front_normal(scene: &Scene) -> Vec3 {
+        normal_of(scene.corners(TriangleId(0)))
+    }
+
+    #[test]
+    fn a_mirrored_node_keeps_fronts_in_front() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"][0]["scale"] = json!([-1, 1, 1]);
+        let scene = fixture.load();
+        assert_eq!(scene.vertices[1].position, Vec3::NEG_X);
+        assert_eq!(front_normal(&scene), Vec3::Z);
+        assert_eq!(scene.vertices[0].normal, Vec3::Z);
+    }
+
+    #[test]
+    fn normals_stay_perpendicular_under_non_uniform_scale() {
+        let mut fixture = Fixture::new();
+        fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0]);
+        fixture.floats("NORMAL", "VEC3", &[1.0, 1.0, 0.0].repeat(3));
+        fixture.json["nodes"][0]["matrix"] = json!([4, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 0, 0, 1]);
+        let scene = fixture.load();
+        assert_eq!(scene.vertices[0].position.x, 7.0);
+        assert!((scene.vertices[0].normal - front_normal(&scene)).length() < 1e-6, "{}", scene.vertices[0].normal);
+    }
+
+    #[test]
+    fn missing_normals_are_flat() {
+        let mut fixture = Fixture::new();
+        fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+        fixture.indices(&[0, 1, 2, 0, 3, 1]);
+        let scene = fixture.load();
+        assert_eq!(scene.vertices.len(), 6);
+        assert!(scene.vertices[..3].iter().all(|vertex| vertex.normal == Vec3::Z));
+        assert!(scene.vertices[3..].iter().all(|vertex| vertex.normal == Vec3::Y));
+    }
+
+    #[test]
+    fn zero_normals_take_the_normal_of_the_face() {
+        let mut fixture = Fixture::triangle();
+        fixture.floats("NORMAL", "VEC3", &[0.0; 9]);
+        assert!(fixture.load().vertices.iter().all(|vertex| vertex.normal == Vec3::Z));
+    }
+
+    #[test]
+    fn triangles_without_area_are_dropped_and_counted() {
+        let mut fixture = Fixture::triangle();
+        fixture.indices(&[0, 1, 1, 0, 1, 2]);
+        let scene = fixture.load();
+        assert_eq!((scene.triangles.len(), scene.dropped_triangles), (1, 1));
+        assert!(scene.notes.iter().any(|note| note.contains("without area")), "{:?}", scene.notes);
+    }
+
+    #[test]
+    fn instances_share_a_mesh_and_keep_their_triangles_together() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"] =
+            json!([{"mesh": 0, "name": "left", "children": [1]}, {"mesh": 0, "translation": [5, 0, 0]}]);
+        let scene = fixture.load();
+        assert_eq!(scene.instances.len(), 2);
+        assert_eq!((scene.instances[0].name.as_str(), scene.instances[1].triangles.clone()), ("left", 1..2));
+        assert_eq!(scene.vertices[3].position.x, 5.0);
+    }
+
+    #[test]
+    fn a_transform_out_of_this_world_is_refused() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"][0]["scale"] = json!([1e30, 1, 1]);
+        assert!(fixture.error().contains("vertex position"), "{}", fixture.error());
+        fixture.json["nodes"][0]["scale"] = json!([1e300, 1, 1]);
+        assert!(fixture.error().contains("transform of node 0"), "{}", fixture.error());
+    }
+}
