@@ -1,8 +1,8 @@
 //! The only place that knows glTF input: a .gltf or .glb file becomes a validated [`Scene`].
 //!
 //! The route: bytes -> [`container`] (JSON and blob) -> [`document`] (buffers, checked look-ups) -> [`material`] and
-//! [`texture`] -> [`nodes`] (the tree; [`geometry`] read through [`accessor`], then [`place`]d in the world) ->
-//! [`groups`]. The gltf crate gives the typed JSON only: its accessors and its importer can panic on broken files, ours
+//! [`texture`] -> [`tree`] (flattened, and held against a [`budget`]) -> [`populate`] ([`geometry`] read through
+//! [`accessor`], then [`place`]d in the world) -> [`groups`]. The gltf crate gives the typed JSON only: its accessors and its importer can panic on broken files, ours
 //! check every range, so that any file either loads or ends in one [`LoadError`].
 //!
 //! Deliberately absent: animation, skinning, morphing, and compressed geometry (Draco, meshopt).
@@ -10,6 +10,7 @@
 //! Source: Khronos Group, "glTF 2.0 Specification" (ISO/IEC 12113:2022) and its extension registry.
 
 mod accessor;
+mod budget;
 mod container;
 mod devices;
 mod document;
@@ -20,21 +21,21 @@ mod fixture;
 mod geometry;
 mod groups;
 mod material;
-mod nodes;
 mod place;
+mod populate;
 mod resource;
 mod texture;
+mod tree;
 
 use std::path::{Path, PathBuf};
 
-use glam::DAffine3;
 use gltf::json::{Index, Node, Root};
 
 pub use error::{Cause, LoadError};
 
 use self::document::Document;
 use self::material::MaterialReader;
-use self::nodes::Walk;
+use self::populate::Population;
 use self::texture::TextureTable;
 use crate::scene::{MAX_REFLECTANCE, Scene, doctor};
 
@@ -78,13 +79,13 @@ fn read_scene(name: String, bytes: &[u8], folder: Option<&Path>, wanted: Option<
     let document = Document::parse(bytes, folder)?;
     let mut scene = Scene { name, ..Scene::default() };
     scene.notes.extend(extension::check(&document.root)?);
+    let nodes = tree::flatten(&document, &root_nodes(&document, wanted)?)?;
+    budget::check(&document, &nodes)?;
     read_materials(&document, &mut scene)?;
 
-    let mut walk = Walk::new(&document, scene);
-    for root in root_nodes(&document, wanted)? {
-        walk.visit(root, DAffine3::IDENTITY, 0)?;
-    }
-    let (mut scene, light_definitions) = walk.finish();
+    let mut population = Population::new(&document, scene);
+    nodes.iter().try_for_each(|node| population.add(node))?;
+    let (mut scene, light_definitions) = population.finish();
     groups::assign(&mut scene, &light_definitions, &light_names(&document.root));
     note_bright_materials(&mut scene);
     Ok(scene)

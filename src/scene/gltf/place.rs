@@ -7,9 +7,6 @@ use super::geometry::Geometry;
 use crate::base::ids::{InstanceId, MaterialId};
 use crate::scene::{Instance, Scene, Triangle, Vertex, VertexAttribute, edge_cross, normal_of};
 
-/// Most vertices or triangles of a scene: about 6 GB.
-const MAX_COUNT: usize = 100_000_000;
-
 /// Largest coordinate that is taken for meant, metres.
 const MAX_COORDINATE: f32 = 1e9;
 
@@ -26,7 +23,6 @@ pub(super) fn place(
 ) -> Result<(), Cause> {
     let corners = corner_indices(geometry);
     let sources = vertex_sources(geometry);
-    check_room(scene, sources.len(), corners.len())?;
     let first = scene.vertices.len();
     add_vertices(scene, geometry, &sources, world_from_mesh, &name)?;
     add_irradiance(scene, geometry, &sources, first);
@@ -68,15 +64,6 @@ fn corner_indices(geometry: &Geometry) -> Vec<[u32; 3]> {
     } else {
         (0..geometry.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect()
     }
-}
-
-fn check_room(scene: &Scene, more_vertices: usize, more_triangles: usize) -> Result<(), Cause> {
-    let vertices = scene.vertices.len() + more_vertices;
-    let triangles = scene.triangles.len() + more_triangles;
-    if vertices.max(triangles) > MAX_COUNT {
-        return Err(Cause::TooLarge(format!("more than {MAX_COUNT} vertices or triangles, all instances counted")));
-    }
-    Ok(())
 }
 
 fn add_vertices(

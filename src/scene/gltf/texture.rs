@@ -21,6 +21,9 @@ use crate::scene::{Image, Sampler, Texture, Wrap};
 /// Largest image side that is decoded, pixels.
 const MAX_IMAGE_SIDE: u32 = 16_384;
 
+/// Memory of the largest image.
+const MAX_IMAGE_BYTES: u64 = 4 * (MAX_IMAGE_SIDE as u64).pow(2);
+
 /// Textures in the order in which materials first asked for them.
 #[derive(Default)]
 pub(super) struct TextureTable {
@@ -130,6 +133,7 @@ fn decode(encoded: &[u8]) -> Result<(ImageFormat, image::RgbaImage), String> {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_IMAGE_SIDE);
     limits.max_image_height = Some(MAX_IMAGE_SIDE);
+    limits.max_alloc = Some(MAX_IMAGE_BYTES);
     let mut reader = ImageReader::with_format(Cursor::new(encoded), format);
     reader.limits(limits);
     let pixels = reader.decode().map_err(|error| format!("it cannot be decoded: {error}"))?;
