@@ -2,11 +2,7 @@
 
 use std::collections::HashMap;
 
-<<<<<<< HEAD:src/scene/gltf/nodes.rs
-use glam::{DAffine3, DMat4, DQuat, DVec3};
-=======
 use glam::DAffine3;
->>>>>>> import:src/scene/gltf/populate.rs
 use gltf::json::mesh::Mesh;
 use gltf::json::{Index, Node};
 
