@@ -6,3 +6,4 @@ mod support;
 mod meshing;
 mod pictures;
 mod radiosity;
+mod render_command;
