@@ -3,6 +3,7 @@
 
 mod support;
 
+mod loader;
 mod meshing;
 mod pictures;
 mod radiosity;
