@@ -7,3 +7,4 @@ mod loader;
 mod meshing;
 mod pictures;
 mod radiosity;
+mod render_command;
