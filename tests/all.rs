@@ -2,4 +2,6 @@
 
 mod support;
 
+mod assets;
+mod builtin;
 mod pictures;

@@ -2,8 +2,9 @@
 //!
 //! The route: bytes -> [`container`] (JSON and blob) -> [`document`] (buffers, checked look-ups) -> [`material`] and
 //! [`texture`] -> [`nodes`] (the tree; [`geometry`] read through [`accessor`], then [`place`]d in the world) ->
-//! [`groups`]. The gltf crate gives the typed JSON only: its accessors and its importer can panic on broken files, ours
-//! check every range, so that any file either loads or ends in one [`LoadError`].
+//! [`groups`], or [`stated_groups`] where the file has its own. The gltf crate gives the typed JSON only: its accessors
+//! and its importer can panic on broken files, ours check every range, so that any file either loads or ends in one
+//! [`LoadError`].
 //!
 //! Deliberately absent: animation, skinning, morphing, and compressed geometry (Draco, meshopt).
 //!
@@ -23,6 +24,7 @@ mod material;
 mod nodes;
 mod place;
 mod resource;
+mod stated_groups;
 mod texture;
 
 use std::path::{Path, PathBuf};
@@ -85,7 +87,9 @@ fn read_scene(name: String, bytes: &[u8], folder: Option<&Path>, wanted: Option<
         walk.visit(root, DAffine3::IDENTITY, 0)?;
     }
     let (mut scene, light_definitions) = walk.finish();
-    groups::assign(&mut scene, &light_definitions, &light_names(&document.root));
+    if !stated_groups::assign(&mut scene, &light_definitions, &document.root) {
+        groups::assign(&mut scene, &light_definitions, &light_names(&document.root));
+    }
     note_bright_materials(&mut scene);
     Ok(scene)
 }
