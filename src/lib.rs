@@ -20,7 +20,10 @@ pub mod gpu;
 pub mod patch;
 pub mod trace;
 
+pub mod form_factor;
 pub mod render;
+
+pub mod radiosity;
 
 pub mod bake;
 

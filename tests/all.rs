@@ -1,7 +1,11 @@
 //! All tests that go through the public door, in one binary.
+#![allow(clippy::unwrap_used, missing_docs)]
 
 mod support;
 
 mod assets;
 mod builtin;
+mod loader;
+mod meshing;
 mod pictures;
+mod radiosity;

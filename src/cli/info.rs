@@ -7,8 +7,9 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 
+use super::bake_options::load;
 use crate::base::colour::luminance;
-use crate::scene::{Camera, Light, LightKind, Projection, Scene, doctor, gltf};
+use crate::scene::{Camera, Light, LightKind, Projection, Scene, doctor};
 
 /// Options of `hemicube info`.
 #[derive(Args, Debug)]
@@ -21,7 +22,7 @@ pub struct InfoArgs {
 ///
 /// Errors: the scene cannot be loaded.
 pub fn run(args: &InfoArgs) -> Result<()> {
-    let scene = gltf::load(&args.scene)?;
+    let scene = load(&args.scene)?;
     let mut text = String::new();
     write_report(&mut text, &scene)?;
     match std::io::stdout().write_all(text.as_bytes()) {

@@ -1,6 +1,9 @@
 //! Floor 7: the command line. One file a subcommand; errors are printed once, by `main`.
 
+pub mod bake;
+pub mod bake_options;
 pub mod info;
+mod terminal;
 
 use std::path::PathBuf;
 
@@ -35,11 +38,19 @@ pub struct Verbosity {
 /// The subcommands.
 #[derive(Debug, Subcommand)]
 pub enum Command {
+    /// Solve the light of a scene and write it as a .glb.
+    Bake(bake::BakeArgs),
     /// Tell what is in a scene and what the mesh doctor finds.
     Info(info::InfoArgs),
 }
 
 impl Verbosity {
+    /// Only errors were asked for.
+    #[must_use]
+    pub fn is_quiet(&self) -> bool {
+        self.quiet
+    }
+
     /// The log level that was asked for.
     #[must_use]
     pub fn level(&self) -> log::LevelFilter {
@@ -57,6 +68,7 @@ impl Verbosity {
 /// Errors: the one message that the user shall read.
 pub fn run(cli: &Cli) -> Result<()> {
     match &cli.command {
+        Some(Command::Bake(args)) => bake::run(args, cli.verbosity.is_quiet()),
         Some(Command::Info(args)) => info::run(args),
         None => anyhow::bail!("this build has no viewer"),
     }
