@@ -5,6 +5,7 @@ mod support;
 
 mod assets;
 mod builtin;
+mod floors;
 mod loader;
 mod meshing;
 mod pictures;
