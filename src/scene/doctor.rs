@@ -110,7 +110,7 @@ impl Findings {
     }
 }
 
-/// Mean reflectance [m] of each material, brightest channel: factors times texture means, vertex colours left out.
+/// Mean reflectance of each material, brightest channel: factors times texture means, vertex colours left out.
 #[must_use]
 pub fn mean_reflectances(scene: &Scene) -> Vec<f32> {
     let colour_means: Vec<_> = scene.textures.iter().map(|texture| mean(texture, Texture::sample_srgb)).collect();

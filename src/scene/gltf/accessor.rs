@@ -102,7 +102,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The same data with integers read as fractions of their largest value, whatever the file says.
-    pub fn as_fractions(mut self) -> Self {
+    pub fn into_fractions(mut self) -> Self {
         self.normalized = true;
         self
     }

@@ -36,9 +36,7 @@ fn split_glb(bytes: &[u8]) -> Result<Glb<'_>, Cause> {
     if expected > bytes.len() {
         return Err(Cause::CutOff { expected, found: bytes.len() });
     }
-    if expected < GLB_HEADER_BYTES {
-        return Err(Cause::NotGltf(format!("its header gives a length of {expected} bytes")));
-    }
+    // Cut to its length, a header that promises less than itself is too short to be read.
     Glb::from_slice(&bytes[..expected]).map_err(|error| match error {
         gltf::Error::Binary(gltf::binary::Error::Io(_)) => Cause::NotGltf("its last chunk is cut off".to_owned()),
         error => Cause::NotGltf(format!("broken .glb container: {error}")),

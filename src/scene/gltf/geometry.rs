@@ -55,7 +55,7 @@ impl<'a> Attributes<'a> {
     /// COLOR_0 as RGBA; integers are fractions of their largest value.
     fn colours(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
         let Some(reader) = self.reader(Semantic::Colors(0))? else { return Ok(None) };
-        let reader = if reader.is_integer() { reader.as_fractions() } else { reader };
+        let reader = if reader.is_integer() { reader.into_fractions() } else { reader };
         let colours = if reader.width() == 3 {
             reader.vectors(rows)?.into_iter().map(|rgb| Vec3::from(rgb).extend(1.0)).collect()
         } else {

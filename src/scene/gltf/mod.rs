@@ -1,10 +1,10 @@
 //! The only place that knows glTF input: a .gltf or .glb file becomes a validated [`Scene`].
 //!
-//! The route: bytes -> [`container`] (JSON and blob) -> [`document`] (buffers, checked look-ups) -> [`material`] and
-//! [`texture`] -> [`tree`] (flattened, and held against a [`budget`]) -> [`populate`] ([`geometry`] read through
-//! [`accessor`], then [`place`]d in the world) -> [`groups`], or [`stated_groups`] where the file has its own. The gltf
-//! crate gives the typed JSON only: its accessors and its importer can panic on broken files, ours check every range,
-//! so that any file either loads or ends in one [`LoadError`].
+//! The route: bytes -> `container` (JSON and blob) -> `document` (buffers, checked look-ups) -> `tree` (flattened nodes,
+//! held against a `budget`) -> `material` and `texture` -> `populate` (`geometry` read through `accessor`, then `place`d
+//! in the world; `devices`: lights and cameras) -> `groups`, or `stated_groups` where the file has its own. The gltf crate
+//! gives the typed JSON only: its accessors and its importer can panic on broken files, ours check every range, so that
+//! any file either loads or ends in one [`LoadError`].
 //!
 //! Deliberately absent: animation, skinning, morphing, and compressed geometry (Draco, meshopt).
 //!
