@@ -10,3 +10,4 @@ mod loader;
 mod meshing;
 mod pictures;
 mod radiosity;
+mod render_command;
