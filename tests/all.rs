@@ -3,6 +3,9 @@
 
 mod support;
 
+mod assets;
+mod builtin;
+mod floors;
 mod loader;
 mod meshing;
 mod pictures;

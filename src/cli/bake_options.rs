@@ -4,7 +4,7 @@ use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::Arc;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
 use crate::bake::{Bake, BakeSettings, Quality, bake};
@@ -81,10 +81,9 @@ fn hemicube_size(text: &str) -> Result<u32, String> {
 /// # Errors
 /// The file cannot be loaded, or there is no such built-in scene.
 pub fn load(path: &Path) -> Result<Scene> {
-    match path.to_str().and_then(|text| text.strip_prefix("builtin:")) {
-        Some("gallery") => Ok(builtin::gallery()),
-        Some("cornell") => Ok(builtin::cornell()),
-        Some(other) => bail!("there is no built-in scene {other}; there are gallery and cornell"),
+    match path.to_str().and_then(|text| text.strip_prefix(builtin::PREFIX)) {
+        Some(name) => builtin::by_name(name)
+            .with_context(|| format!("there is no built-in scene {name}; there are {}", builtin::NAMES.join(" and "))),
         None => Ok(gltf::load(path)?),
     }
 }

@@ -2,9 +2,9 @@
 //!
 //! The route: bytes -> `container` (JSON and blob) -> `document` (buffers, checked look-ups) -> `tree` (flattened nodes,
 //! held against a `budget`) -> `material` and `texture` -> `populate` (`geometry` read through `accessor`, then `place`d
-//! in the world; `devices`: lights and cameras) -> `groups`. The gltf crate gives the typed JSON only: its accessors and
-//! its importer can panic on broken files, ours check every range, so that any file either loads or ends in one
-//! [`LoadError`].
+//! in the world; `devices`: lights and cameras) -> `groups`, or `stated_groups` where the file has its own. The gltf crate
+//! gives the typed JSON only: its accessors and its importer can panic on broken files, ours check every range, so that
+//! any file either loads or ends in one [`LoadError`].
 //!
 //! Deliberately absent: animation, skinning, morphing, and compressed geometry (Draco, meshopt).
 //!
@@ -25,6 +25,7 @@ mod material;
 mod place;
 mod populate;
 mod resource;
+mod stated_groups;
 mod texture;
 mod tree;
 
@@ -87,7 +88,9 @@ fn read_scene(name: String, bytes: &[u8], folder: Option<&Path>, wanted: Option<
     let mut population = Population::new(&document, scene);
     nodes.iter().try_for_each(|node| population.add(node))?;
     let (mut scene, light_definitions) = population.finish();
-    groups::assign(&mut scene, &light_definitions, &light_names(&document.root));
+    if !stated_groups::assign(&mut scene, &light_definitions, &document.root) {
+        groups::assign(&mut scene, &light_definitions, &light_names(&document.root));
+    }
     note_bright_materials(&mut scene);
     Ok(scene)
 }
