@@ -23,3 +23,5 @@ pub mod trace;
 pub mod render;
 
 pub mod bake;
+
+pub mod viewer;
