@@ -1,1 +1,132 @@
-// placeholder
+// Item buffer of a hemicube face: which element is seen through each pixel.
+//
+// The input triangles are drawn, not the elements: the fragment finds its element by descending the triangle's bisection
+// tree with its barycentric position, so the cost depends on input triangles and pixels alone.
+//
+// Item: 0 nothing, 1 the back of a single-sided surface, else element id + 2.
+
+struct Triangle {
+    root: u32,
+    // Items to add on the back; 0 where the back is black.
+    back_offset: u32,
+    // Index into `cutouts` + 1; 0 where the triangle is opaque.
+    cutout: u32,
+    padding: u32,
+    uv_0: vec2<f32>,
+    uv_1: vec2<f32>,
+    uv_2: vec2<f32>,
+    // Vertex alpha of the three corners, 8 bits each.
+    vertex_alpha: u32,
+    padding_2: u32,
+}
+
+// The alpha channel of a material that lets light through.
+struct Cutout {
+    first_texel: u32,
+    size: vec2<u32>,
+    // 0 repeat, 1 mirror, 2 clamp; u in the low half, v in the high half.
+    wrap: u32,
+    alpha_factor: f32,
+    // Smallest solid alpha; negative where light passes in the share 1 - alpha.
+    cutoff: f32,
+}
+
+@group(0) @binding(0) var<storage, read> views: array<mat4x4<f32>>;
+@group(0) @binding(1) var<storage, read> corners: array<vec4<f32>>;
+@group(0) @binding(2) var<storage, read> triangles: array<Triangle>;
+@group(0) @binding(3) var<storage, read> tree: array<u32>;
+@group(0) @binding(4) var<storage, read> cutouts: array<Cutout>;
+@group(0) @binding(5) var<storage, read> alphas: array<u32>;
+
+// The scene has surfaces that let light through.
+override HAS_CUTOUTS: bool = false;
+
+const NOTHING: u32 = 0u;
+const BACK: u32 = 1u;
+const FIRST_ELEMENT: u32 = 2u;
+// Zero, because software drivers run pixels outside the triangle too, and these read zeros: they must end.
+const LEAF: u32 = 0u;
+
+struct Varyings {
+    @builtin(position) position: vec4<f32>,
+    @location(0) barycentric: vec3<f32>,
+    @location(1) @interpolate(flat) triangle: u32,
+}
+
+@vertex
+fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) view: u32) -> Varyings {
+    let corner = index % 3u;
+    var out: Varyings;
+    out.position = views[view] * vec4<f32>(corners[index].xyz, 1.0);
+    out.barycentric = vec3<f32>(f32(corner == 0u), f32(corner == 1u), f32(corner == 2u));
+    out.triangle = index / 3u;
+    return out;
+}
+
+@fragment
+fn fragment(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0) u32 {
+    let back_offset = triangles[in.triangle].back_offset;
+    if HAS_CUTOUTS && is_hole(in) {
+        discard;
+    }
+    if !is_front && back_offset == 0u {
+        return BACK;
+    }
+    let element = element_at(triangles[in.triangle].root, in.barycentric);
+    return FIRST_ELEMENT + element + select(back_offset, 0u, is_front);
+}
+
+// The leaf that holds a barycentric position; see PatchMesh::element_at.
+fn element_at(root: u32, barycentric: vec3<f32>) -> u32 {
+    var w = barycentric;
+    var node = tree[root];
+    while (node & 3u) != LEAF {
+        // Turn the weights so that the apex comes first.
+        let apex = node & 3u;
+        w = select(select(w, w.yzx, apex == 2u), w.zxy, apex == 3u);
+        let is_second = w.z > w.y;
+        w = select(vec3<f32>(w.x, w.y - w.z, 2.0 * w.z), vec3<f32>(w.x, 2.0 * w.y, w.z - w.y), is_second);
+        node = tree[(node >> 2u) + u32(is_second)];
+    }
+    return node >> 2u;
+}
+
+fn is_hole(in: Varyings) -> bool {
+    let triangle = triangles[in.triangle];
+    if triangle.cutout == 0u {
+        return false;
+    }
+    let cutout = cutouts[triangle.cutout - 1u];
+    let w = in.barycentric;
+    let uv = triangle.uv_0 * w.x + triangle.uv_1 * w.y + triangle.uv_2 * w.z;
+    let vertex_alpha = dot(unpack4x8unorm(triangle.vertex_alpha).xyz, w);
+    let alpha = texel(cutout, uv) * cutout.alpha_factor * vertex_alpha;
+    if cutout.cutoff < 0.0 {
+        // Screen-door: a pixel is solid with probability alpha.
+        return alpha <= unit_hash(vec2<u32>(in.position.xy) ^ vec2<u32>(in.triangle * 1973u, in.triangle));
+    }
+    return alpha < cutout.cutoff;
+}
+
+fn texel(cutout: Cutout, uv: vec2<f32>) -> f32 {
+    let at = vec2<i32>(floor(uv * vec2<f32>(cutout.size)));
+    let x = wrapped(at.x, i32(cutout.size.x), cutout.wrap & 0xffffu);
+    let y = wrapped(at.y, i32(cutout.size.y), cutout.wrap >> 16u);
+    let texel = cutout.first_texel + u32(y) * cutout.size.x + u32(x);
+    return f32((alphas[texel / 4u] >> (8u * (texel % 4u))) & 0xffu) / 255.0;
+}
+
+fn wrapped(at: i32, size: i32, mode: u32) -> i32 {
+    if mode == 2u {
+        return clamp(at, 0, size - 1);
+    }
+    let period = select(size, 2 * size, mode == 1u);
+    let place = ((at % period) + period) % period;
+    return min(place, 2 * size - 1 - place);
+}
+
+fn unit_hash(p: vec2<u32>) -> f32 {
+    let state = (p.x * 1664525u + p.y * 1013904223u) * 747796405u + 2891336453u;
+    let word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    return f32(((word >> 22u) ^ word) >> 8u) / 16777216.0;
+}

@@ -20,8 +20,13 @@ pub mod gpu;
 pub mod patch;
 pub mod trace;
 
+pub mod form_factor;
 pub mod render;
+
+pub mod radiosity;
 
 pub mod bake;
 
 pub mod viewer;
+
+pub mod cli;

@@ -1,3 +1,18 @@
 //! The `hemicube` command: see `hemicube --help`.
 
-fn main() {}
+use std::process::ExitCode;
+
+use clap::Parser;
+use hemicube::cli::{self, Cli};
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    env_logger::Builder::new().filter_level(cli.verbosity.level()).format_timestamp(None).init();
+    match cli::run(&cli) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("hemicube: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}

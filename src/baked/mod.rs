@@ -3,9 +3,33 @@
 //! The scene of a [`BakedScene`] has the *elements* as its triangles; double-sided input triangles are written out as a
 //! front and a back. Everything that works on a [`Scene`] (rays, shadows, `info`) therefore works on a bake.
 
+pub mod gltf;
+
+use std::path::PathBuf;
+
 use glam::Vec3;
+use thiserror::Error;
 
 use crate::scene::Scene;
+
+/// A bake could not be written.
+#[derive(Debug, Error)]
+pub enum BakedError {
+    /// The file system refused.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file that was to be.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A .glb counts its bytes in 32 bits.
+    #[error("the scene takes {bytes} bytes, a .glb file holds 4 GiB; bake with larger elements")]
+    TooLarge {
+        /// Size of the whole file.
+        bytes: usize,
+    },
+}
 
 /// A scene whose vertices carry light.
 #[derive(Clone, Debug, Default)]

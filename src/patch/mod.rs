@@ -1,1 +1,163 @@
-//! x
+//! Floor 2: the scene cut up for light: elements receive, patches shoot, light vertices carry the result.
+//!
+//! Follows on loading; `form_factor` sees the elements through item buffers and `radiosity` solves on them. Deliberately
+//! absent: any light. A [`PatchMesh`] depends on geometry, reflectance and emission only.
+
+mod cluster;
+mod optics;
+mod subdivide;
+
+use std::ops::Range;
+
+use glam::Vec3;
+
+use crate::base::ids::{ElementId, GroupId, PatchId, TriangleId};
+use crate::scene::{Scene, Vertex};
+
+pub use subdivide::{LEAF, MeshError};
+
+/// How finely a scene is cut.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshSettings {
+    /// Longest edge of an element, metres.
+    pub element_size: f32,
+    /// Width of a patch, metres: elements within such a cell shoot as one.
+    pub patch_size: f32,
+}
+
+/// Elements, patches and the vertices that carry light.
+#[derive(Clone, Debug, Default)]
+pub struct PatchMesh {
+    /// Vertices [v] of the elements: those of the scene, flipped copies for backs, and edge midpoints.
+    pub vertices: Vec<Vertex>,
+    /// The light vertex of each vertex [v].
+    pub light_vertex_of: Vec<u32>,
+    /// Places [l] at which irradiance is stored.
+    pub light_vertices: Vec<LightVertex>,
+    /// Elements [e]; the fronts of one input triangle side by side, then its backs in the same order.
+    pub elements: Vec<Element>,
+    /// Patches [p].
+    pub patches: Vec<Patch>,
+    /// Elements of all patches, patch by patch.
+    pub members: Vec<ElementId>,
+    /// Bisection trees of all input triangles: see [`PatchMesh::element_at`].
+    pub tree: Vec<u32>,
+    /// Tree and element range of each input triangle [t].
+    pub roots: Vec<Root>,
+}
+
+/// A place at which irradiance is stored, shared by all elements that meet there with one shading normal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LightVertex {
+    /// Metres.
+    pub position: Vec3,
+    /// Unit shading normal.
+    pub normal: Vec3,
+}
+
+/// The smallest receiver of light: a triangle within one input triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Element {
+    /// Its vertices [v], counter-clockwise seen from the side that reflects.
+    pub vertices: [u32; 3],
+    /// The input triangle it is a part of.
+    pub triangle: TriangleId,
+    /// It is on the back of a double-sided triangle.
+    pub is_back: bool,
+    /// The patch it shoots with.
+    pub patch: PatchId,
+    /// Solid area: area x share that is no hole, square metres.
+    pub area: f32,
+    /// Mean diffuse reflectance of the solid part per channel.
+    pub reflectance: Vec3,
+    /// Mean exitance of the solid part: pi x emitted radiance, lux per channel.
+    pub exitance: Vec3,
+    /// Light group of the exitance.
+    pub group: Option<GroupId>,
+}
+
+/// Neighbouring elements that face alike and shoot as one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    /// Its elements: a range of [`PatchMesh::members`].
+    pub members: Range<usize>,
+    /// Solid area, square metres.
+    pub area: f32,
+}
+
+/// Where the bisection tree and the elements of an input triangle are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Root {
+    /// Index of the root node in [`PatchMesh::tree`].
+    pub node: u32,
+    /// First front element.
+    pub first_element: u32,
+    /// Elements on one side. The back element of front element `e` is `e + num_elements` where there are backs.
+    pub num_elements: u32,
+    /// The triangle is double-sided: there are backs.
+    pub has_backs: bool,
+}
+
+impl PatchMesh {
+    /// Cuts a scene.
+    ///
+    /// Elements are conforming wherever the input is: an edge is split where it is longer than the element size, at its
+    /// midpoint, whichever triangle asks.
+    ///
+    /// # Errors
+    /// More elements than fit in memory or in an item id.
+    pub fn new(scene: &Scene, settings: &MeshSettings) -> Result<Self, MeshError> {
+        let mut mesh = subdivide::subdivide(scene, settings.element_size)?;
+        optics::evaluate(&mut mesh, scene);
+        cluster::cluster(&mut mesh, scene, settings.patch_size);
+        Ok(mesh)
+    }
+
+    /// Corner positions of an element, metres.
+    #[must_use]
+    pub fn corners(&self, element: &Element) -> [Vec3; 3] {
+        element.vertices.map(|v| self.vertices[v as usize].position)
+    }
+
+    /// Centroid of an element, metres.
+    #[must_use]
+    pub fn centroid(&self, element: &Element) -> Vec3 {
+        let [a, b, c] = self.corners(element);
+        (a + b + c) / 3.0
+    }
+
+    /// Elements of a patch.
+    #[must_use]
+    pub fn members_of(&self, patch: &Patch) -> &[ElementId] {
+        &self.members[patch.members.clone()]
+    }
+
+    /// Light vertices of an element's corners.
+    #[must_use]
+    pub fn light_vertices_of(&self, element: &Element) -> [usize; 3] {
+        element.vertices.map(|v| self.light_vertex_of[v as usize] as usize)
+    }
+
+    /// The front element at a barycentric position of an input triangle.
+    ///
+    /// Descends the bisection tree: a node holds `child << 2 | k + 1`, where the edge opposite corner `k` is halved, the
+    /// child at `child` keeps the first end of that edge and the one at `child + 1` the second; a leaf holds
+    /// `element << 2 |` [`LEAF`]. The item buffer's fragment shader does the same.
+    #[must_use]
+    pub fn element_at(&self, triangle: TriangleId, barycentric: Vec3) -> ElementId {
+        let mut weights = barycentric.to_array();
+        let mut node = self.tree[self.roots[triangle.index()].node as usize];
+        while node & 3 != LEAF {
+            let apex = (node & 3) as usize - 1;
+            let (at_apex, first, second) = (weights[apex], weights[(apex + 1) % 3], weights[(apex + 2) % 3]);
+            let is_second = second > first;
+            weights = if is_second {
+                [at_apex, 2.0 * first, second - first]
+            } else {
+                [at_apex, first - second, 2.0 * second]
+            };
+            node = self.tree[(node >> 2) as usize + usize::from(is_second)];
+        }
+        ElementId(node >> 2)
+    }
+}

@@ -51,30 +51,16 @@ pub fn picture_with_samples(
     look: &Look,
     samples: u32,
 ) -> Result<Picture, GpuError> {
-    let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
-    picture_of_buffers(gpu, &SceneBuffers::new(gpu, baked), &view, size, look, samples)
-}
-
-/// A picture of a scene that is on the device already, from any view.
-///
-/// # Errors
-/// As [`picture`].
-pub fn picture_of_buffers(
-    gpu: &Gpu,
-    scene: &SceneBuffers,
-    view: &View,
-    size: [u32; 2],
-    look: &Look,
-    samples: u32,
-) -> Result<Picture, GpuError> {
     let limit = gpu.device.limits().max_texture_dimension_2d;
     if size.iter().any(|&side| side == 0 || side > limit) {
         return Err(GpuError::PictureSize { width: size[0], height: size[1], limit });
     }
+    let scene = SceneBuffers::new(gpu, baked);
     let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, samples);
     let target = display_target(gpu, size);
+    let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, scene, view, look);
+    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, &scene, &view, look);
     gpu.queue.submit([encoder.finish()]);
 
     let display = read_texture(gpu, &target, 4)?;

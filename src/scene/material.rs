@@ -96,7 +96,7 @@ pub struct Image {
     pub height: u32,
     /// RGBA bytes as stored (sRGB for colours), row by row from the top.
     pub rgba: Vec<u8>,
-    /// The encoded file.
+    /// The encoded file; empty where it could not be read and a grey pixel stands in.
     pub encoded: Vec<u8>,
     /// `image/png`, `image/jpeg`, ...
     pub mime_type: String,

@@ -4,7 +4,10 @@
 //! later stage checks again. Deliberately absent: the node tree (transforms are applied on loading) and anything of
 //! the GPU.
 
+pub mod builtin;
 pub mod camera;
+pub mod doctor;
+pub mod gltf;
 pub mod light;
 pub mod material;
 
@@ -14,7 +17,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 pub use camera::{Camera, Projection};
 pub use light::{Light, LightKind};
-pub use material::{AlphaMode, Image, Material, Sampler, Texture, TextureSlot, Wrap};
+pub use material::{AlphaMode, Image, MAX_REFLECTANCE, Material, Sampler, Texture, TextureSlot, Wrap};
 
 use crate::base::ids::{InstanceId, MaterialId, TriangleId};
 
@@ -41,6 +44,8 @@ pub struct Scene {
     pub light_groups: Vec<String>,
     /// Stored light found in the file: vertex attributes whose name begins with `_IRRADIANCE_`, one value a vertex.
     pub irradiance: Vec<VertexAttribute>,
+    /// Triangles of the file that have no area and were left out.
+    pub dropped_triangles: usize,
     /// What the loader noticed and the user should know, one line each.
     pub notes: Vec<String>,
 }

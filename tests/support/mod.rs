@@ -1,5 +1,6 @@
-//! What tests of pictures share.
+//! What several test files share.
 
 pub mod device;
 pub mod quads;
+pub mod scenes;
 pub mod snapshot;

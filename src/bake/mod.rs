@@ -1,0 +1,157 @@
+//! Floor 5: the whole job as one recipe.
+
+mod report;
+mod settings;
+mod watch;
+
+use std::time::Instant;
+
+use thiserror::Error;
+
+use crate::baked::BakedScene;
+use crate::base::progress::Stage;
+use crate::form_factor::FormFactorError;
+use crate::form_factor::hemicube::Hemicubes;
+use crate::gpu::Gpu;
+use crate::patch::{MeshError, PatchMesh};
+use crate::radiosity::Field;
+use crate::radiosity::direct::DirectLight;
+use crate::radiosity::gather::gather;
+use crate::radiosity::gathering::{polish, reflected_radiosity};
+use crate::radiosity::progressive::{Progressive, Solution};
+use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, on_elements, vertex_light};
+use crate::radiosity::sites::Sites;
+use crate::scene::Scene;
+use crate::trace::Tracer;
+
+pub use report::{Flux, Report};
+pub use settings::{BakeSettings, Quality};
+pub use watch::{Seconds, Watch};
+
+/// A finished (or cancelled) bake.
+pub struct Bake {
+    /// The elements with their light.
+    pub baked: BakedScene,
+    /// The certificate.
+    pub report: Report,
+    /// The solution on the elements.
+    pub solution: Solution,
+    /// The mesh that was solved.
+    pub mesh: PatchMesh,
+}
+
+/// A bake could not be done.
+#[derive(Debug, Error)]
+pub enum BakeError {
+    /// The scene cannot be cut.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// No form factors.
+    #[error(transparent)]
+    FormFactor(#[from] FormFactorError),
+    /// Nothing shines.
+    #[error("the scene {0} has no light: no emissive material and no light of KHR_lights_punctual")]
+    NoLight(String),
+}
+
+/// Bakes a scene: meshing, direct light, progressive refinement, vertex light.
+///
+/// Where the watch cancels, what is solved so far is returned, with the average of the elements in place of gathered light.
+///
+/// # Errors
+/// The scene has no triangles or no light, would need too many elements, or the device failed.
+pub fn bake(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, watch: &dyn Watch) -> Result<Bake, BakeError> {
+    if scene.light_groups.is_empty() {
+        return Err(BakeError::NoLight(scene.name.clone()));
+    }
+    let mut seconds = Seconds::default();
+    let mut clock = Instant::now();
+
+    // Cut the scene into elements and patches.
+    watch.report(Stage::Mesh, 0.0);
+    let mesh = PatchMesh::new(scene, &settings.mesh_settings(scene))?;
+    let mut baked = dark_scene(scene, &mesh);
+    watch.mesh(&baked);
+    seconds.lap(Stage::Mesh, &mut clock);
+
+    // Direct light at the vertices, and from there on the elements.
+    let sites = Sites::new(scene);
+    let places = sites.of_light_vertices(&mesh);
+    let tracer = Tracer::new(scene);
+    let mut direct = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays).irradiance(&places, watch);
+    seconds.lap(Stage::Direct, &mut clock);
+
+    // Shoot what the elements reflect, greatest power first.
+    let mut solver = Progressive::new(&mesh, sites, on_elements(&mesh, &direct), settings.progressive());
+    let mut shooting = Hemicubes::new(gpu, scene, &mesh, settings::SHOOTING_PX);
+    while !solver.is_done() && !watch.is_cancelled() {
+        if watch.wants_light() {
+            watch.light(&vertex_light(&mesh, &direct, &estimate(&mesh, solver.solution())));
+        }
+        solver.step(&mut shooting, watch)?;
+    }
+    let unshot_share = solver.unshot_share();
+    let (solution, rows) = solver.into_parts();
+    let on_patches = polish(&mesh, &solution, &rows);
+    seconds.lap(Stage::Solve, &mut clock);
+
+    // Collect the indirect light at the vertices.
+    let mut gathering = Hemicubes::new(gpu, scene, &mesh, settings.hemicube_px);
+    let radiosity = reflected_radiosity(&mesh, &solution.direct, &on_patches);
+    let gathered = gather(&radiosity, &mut gathering, &places, watch)?;
+    let mut indirect = completed(gathered.indirect, places.len(), || estimate(&mesh, &solution));
+    let num_gathered = gathered.is_valid.len();
+    let mut is_valid = gathered.is_valid;
+    is_valid.resize(places.len(), true);
+    fill_hidden(&mesh, &is_valid, [&mut direct, &mut indirect]);
+    baked.light = vertex_light(&mesh, &direct, &indirect);
+    watch.light(&baked.light);
+    seconds.lap(Stage::Gather, &mut clock);
+
+    let report = Report {
+        scene: scene.name.clone(),
+        quality: settings.quality,
+        method: "hemicube",
+        solver: "progressive",
+        adapter: gpu.name(),
+        input_triangles: scene.triangles.len(),
+        elements: mesh.elements.len(),
+        patches: mesh.patches.len(),
+        vertices: places.len(),
+        light_groups: scene.light_groups.clone(),
+        hemicubes: rows.num_viewpoints() + num_gathered,
+        hemicube_px: settings.hemicube_px,
+        shots: solution.num_shots,
+        unshot_share,
+        cancelled: watch.is_cancelled(),
+        energy: solution.energy.into(),
+        backface_share: gathered.mean_back_share,
+        hidden_vertices: is_valid.iter().filter(|valid| !**valid).count(),
+        seconds,
+    };
+    Ok(Bake { baked, report, solution, mesh })
+}
+
+/// Indirect light at the vertices from an unfinished solution: averages plus the ambient estimate.
+fn estimate(mesh: &PatchMesh, solution: &Solution) -> Field {
+    let ambient = solution.ambient_estimate(mesh);
+    let mut field = average(mesh, &solution.indirect);
+    for groups in field.values_mut().chunks_exact_mut(ambient.len()) {
+        for (value, &ambient) in groups.iter_mut().zip(&ambient) {
+            *value += ambient;
+        }
+    }
+    field
+}
+
+/// The gathered light, completed by the estimate where gathering was cut short.
+fn completed(gathered: Field, num_places: usize, estimate: impl Fn() -> Field) -> Field {
+    if gathered.num_places() == num_places {
+        return gathered;
+    }
+    let mut field = estimate();
+    for place in 0..gathered.num_places() {
+        field.at_mut(place).copy_from_slice(gathered.at(place));
+    }
+    field
+}

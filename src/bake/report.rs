@@ -1,0 +1,80 @@
+//! The solution's certificate, written by `--report`.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::settings::Quality;
+use super::watch::Seconds;
+use crate::base::colour::LUMINANCE;
+use crate::radiosity::progressive::Energy;
+
+/// Counts, balances and times of a bake.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// Name of the scene.
+    pub scene: String,
+    /// Preset.
+    pub quality: Quality,
+    /// How form factors were found.
+    pub method: &'static str,
+    /// How the system was solved.
+    pub solver: &'static str,
+    /// The device.
+    pub adapter: String,
+    /// Triangles of the scene.
+    pub input_triangles: usize,
+    /// Receivers of light.
+    pub elements: usize,
+    /// Shooters of light.
+    pub patches: usize,
+    /// Places at which light is stored.
+    pub vertices: usize,
+    /// Light groups.
+    pub light_groups: Vec<String>,
+    /// Hemicubes drawn.
+    pub hemicubes: usize,
+    /// Pixels across a gathering hemicube.
+    pub hemicube_px: u32,
+    /// Patches that shot, repeats counted.
+    pub shots: usize,
+    /// Share of the first reflected power that was not shot.
+    pub unshot_share: f64,
+    /// The bake was cancelled before its end.
+    pub cancelled: bool,
+    /// Where the light went, luminous flux in lumen.
+    pub energy: Flux,
+    /// Share of back faces that the gathering sites saw.
+    pub backface_share: f32,
+    /// Sites found inside or behind something.
+    pub hidden_vertices: usize,
+    /// By stage.
+    pub seconds: Seconds,
+}
+
+/// Luminous flux, lumen.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Flux {
+    /// Arrived at surfaces straight from the lights.
+    pub emitted: f64,
+    /// Kept by surfaces.
+    pub absorbed: f64,
+    /// Reflected but not shot.
+    pub unshot: f64,
+    /// Left the scene.
+    pub escaped: f64,
+    /// Share of the emitted power not accounted for, in the worst channel.
+    pub imbalance: f64,
+}
+
+impl From<Energy> for Flux {
+    fn from(energy: Energy) -> Self {
+        let flux = |power: DVec3| power.dot(LUMINANCE.as_dvec3());
+        Self {
+            emitted: flux(energy.emitted),
+            absorbed: flux(energy.absorbed),
+            unshot: flux(energy.unshot),
+            escaped: flux(energy.escaped),
+            imbalance: energy.imbalance(),
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Presets that a user need not tune, and the sizes they mean on a given scene.
+
+use crate::patch::MeshSettings;
+use crate::radiosity::progressive::ProgressiveSettings;
+use crate::scene::Scene;
+
+/// Named presets.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Quality {
+    /// A first look in seconds.
+    Draft,
+    /// For walking through.
+    #[default]
+    Medium,
+    /// For measuring and pictures.
+    High,
+}
+
+/// How a scene is baked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BakeSettings {
+    /// The preset that the other values began as.
+    pub quality: Quality,
+    /// Longest element edge, metres; none: chosen from the scene's area.
+    pub element_size: Option<f32>,
+    /// Width of the hemicubes that gather, pixels.
+    pub hemicube_px: u32,
+    /// Share of the first unshot power at which shooting ends.
+    pub threshold: f32,
+    /// Shots a patch, on average, after which shooting ends.
+    pub max_passes: usize,
+    /// Elements that a chosen element size aims at.
+    pub target_elements: f64,
+    /// Patches that the patch size aims at.
+    pub target_patches: f64,
+    /// Hemicubes a patch.
+    pub points_a_patch: usize,
+    /// Rays a place and emitter in penumbrae.
+    pub num_penumbra_rays: u32,
+}
+
+/// Width of the hemicubes that shoot: they see patches, not detail.
+pub(super) const SHOOTING_PX: u32 = 64;
+
+/// Rows kept between shots.
+const ROW_BYTES: usize = 1 << 30;
+
+/// Mean area of an element in squares of the element size (bisection ends between 1/8 and 1/4).
+const AREA_OF_ELEMENT: f64 = 0.18;
+
+impl BakeSettings {
+    /// The values of a preset.
+    #[must_use]
+    pub fn preset(quality: Quality) -> Self {
+        let base = Self {
+            quality,
+            element_size: None,
+            hemicube_px: 64,
+            threshold: 1e-3,
+            max_passes: 64,
+            target_elements: 40_000.0,
+            target_patches: 1_500.0,
+            points_a_patch: 2,
+            num_penumbra_rays: 64,
+        };
+        match quality {
+            Quality::Draft => Self {
+                hemicube_px: 32,
+                threshold: 1e-2,
+                target_elements: 10_000.0,
+                target_patches: 500.0,
+                points_a_patch: 1,
+                num_penumbra_rays: 32,
+                ..base
+            },
+            Quality::Medium => base,
+            Quality::High => Self {
+                hemicube_px: 128,
+                threshold: 3e-4,
+                target_elements: 160_000.0,
+                target_patches: 4_000.0,
+                points_a_patch: 4,
+                num_penumbra_rays: 256,
+                ..base
+            },
+        }
+    }
+
+    /// Sizes in metres on this scene.
+    #[must_use]
+    pub fn mesh_settings(&self, scene: &Scene) -> MeshSettings {
+        let area = scene.area();
+        let chosen = (area / (AREA_OF_ELEMENT * self.target_elements)).sqrt() as f32;
+        let element_size = self.element_size.unwrap_or(chosen);
+        let patch_size = ((area / self.target_patches).sqrt() as f32).max(element_size);
+        MeshSettings { element_size, patch_size }
+    }
+
+    pub(super) fn progressive(&self) -> ProgressiveSettings {
+        ProgressiveSettings {
+            threshold: self.threshold,
+            max_shots_a_patch: self.max_passes,
+            points_a_patch: self.points_a_patch,
+            patches_a_batch: 64,
+            row_bytes: ROW_BYTES,
+        }
+    }
+}

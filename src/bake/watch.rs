@@ -1,0 +1,51 @@
+//! Who watches a bake.
+
+use crate::baked::{BakedScene, VertexLight};
+use crate::base::progress::{Progress, Stage, Unwatched};
+
+/// Who watches a bake: progress, and the light so far.
+///
+/// `mesh` comes once, `light` as often as it is wanted; both are called on the thread that bakes.
+pub trait Watch: Progress {
+    /// The mesh that the light will be on, still dark.
+    fn mesh(&self, _dark: &BakedScene) {}
+    /// A new estimate of the light would be welcome now (the last one has been taken).
+    fn wants_light(&self) -> bool {
+        false
+    }
+    /// Light so far, with the ambient estimate of what is still unshot.
+    fn light(&self, _estimate: &VertexLight) {}
+}
+
+impl Watch for Unwatched {}
+
+/// Seconds spent in each stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
+pub struct Seconds {
+    /// Elements and patches.
+    pub mesh: f64,
+    /// Direct light.
+    pub direct: f64,
+    /// Form factors and shooting.
+    pub solve: f64,
+    /// Vertex light.
+    pub gather: f64,
+    /// All of the bake.
+    pub total: f64,
+}
+
+impl Seconds {
+    /// Adds the time since `start` to a stage and starts anew.
+    pub(super) fn lap(&mut self, stage: Stage, start: &mut std::time::Instant) {
+        let seconds = start.elapsed().as_secs_f64();
+        *start = std::time::Instant::now();
+        self.total += seconds;
+        match stage {
+            Stage::Load => {}
+            Stage::Mesh => self.mesh += seconds,
+            Stage::Direct => self.direct += seconds,
+            Stage::Solve => self.solve += seconds,
+            Stage::Gather => self.gather += seconds,
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Materials, textures, samplers and images.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use glam::{Affine2, Vec3};
+use serde_json::{Map, Value, json};
+
+use super::binary::Binary;
+use super::{Extensions, named, node};
+use crate::scene::{AlphaMode, Image, Material, Sampler, Scene, TextureSlot, Wrap};
+
+/// The texture slots that a material fills.
+pub(super) fn texture_slots(material: &Material) -> impl Iterator<Item = &TextureSlot> {
+    let normal = material.normal_texture.as_ref().map(|(slot, _)| slot);
+    let others = [&material.base_colour_texture, &material.metallic_roughness_texture, &material.emissive_texture];
+    others.into_iter().flatten().chain(normal)
+}
+
+/// Images, each once, with their number by address.
+pub(super) struct UniqueImages<'a> {
+    images: Vec<&'a Image>,
+    number: HashMap<*const Image, usize>,
+}
+
+/// Textures may share an image; it is written once.
+pub(super) fn unique_images(scene: &Scene) -> UniqueImages<'_> {
+    let mut unique = UniqueImages { images: Vec::new(), number: HashMap::new() };
+    for texture in &scene.textures {
+        unique.number.entry(Arc::as_ptr(&texture.image)).or_insert_with(|| {
+            unique.images.push(&texture.image);
+            unique.images.len() - 1
+        });
+    }
+    unique
+}
+
+/// The encoded images, unchanged.
+pub(super) fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
+    let embedded = |image: &&Image| {
+        let mut object = named(&image.name);
+        object["bufferView"] = json!(binary.push_image(&image.encoded));
+        object["mimeType"] = json!(image.mime_type);
+        object
+    };
+    unique.images.iter().map(embedded).collect()
+}
+
+/// One texture object each, which names its image and its sampler.
+pub(super) fn textures(scene: &Scene, unique: &UniqueImages<'_>) -> Vec<Value> {
+    let samplers = unique_samplers(scene);
+    let object = |texture: &crate::scene::Texture| {
+        let sampler = samplers.iter().position(|sampler| *sampler == texture.sampler);
+        json!({ "source": unique.number[&Arc::as_ptr(&texture.image)], "sampler": sampler })
+    };
+    scene.textures.iter().map(object).collect()
+}
+
+/// The different samplers in use.
+pub(super) fn samplers(scene: &Scene) -> Vec<Value> {
+    unique_samplers(scene).into_iter().map(sampler).collect()
+}
+
+fn unique_samplers(scene: &Scene) -> Vec<Sampler> {
+    let mut unique = Vec::new();
+    for texture in &scene.textures {
+        if !unique.contains(&texture.sampler) {
+            unique.push(texture.sampler);
+        }
+    }
+    unique
+}
+
+fn sampler(sampler: Sampler) -> Value {
+    const NEAREST: u32 = 9728;
+    const LINEAR: u32 = 9729;
+    const LINEAR_MIPMAP_LINEAR: u32 = 9987;
+    let wrap = |wrap| match wrap {
+        Wrap::Repeat => 10497,
+        Wrap::Mirror => 33648,
+        Wrap::Clamp => 33071,
+    };
+    let (mag, min) = if sampler.nearest { (NEAREST, NEAREST) } else { (LINEAR, LINEAR_MIPMAP_LINEAR) };
+    json!({ "wrapS": wrap(sampler.wrap_u), "wrapT": wrap(sampler.wrap_v), "magFilter": mag, "minFilter": min })
+}
+
+/// All materials.
+pub(super) fn materials(scene: &Scene, used: &mut Extensions) -> Vec<Value> {
+    scene.materials.iter().map(|material| object(scene, material, used)).collect()
+}
+
+fn object(scene: &Scene, material: &Material, used: &mut Extensions) -> Value {
+    let mut object = named(&material.name);
+    object["pbrMetallicRoughness"] = metallic_roughness(material, used);
+    if let Some((slot, scale)) = &material.normal_texture {
+        let mut info = texture_info(slot, used);
+        info["scale"] = json!(scale);
+        object["normalTexture"] = info;
+    }
+    if let Some(slot) = &material.emissive_texture {
+        object["emissiveTexture"] = texture_info(slot, used);
+    }
+    if material.is_emissive() {
+        // The factor is at most one a channel, the strength takes the rest.
+        object["emissiveFactor"] = json!((material.emission / strength(material.emission)).to_array());
+    }
+    if let Some(group) = material.group {
+        object["extras"] = json!({ "light_group": node::group_name(scene, group) });
+    }
+    if material.double_sided {
+        object["doubleSided"] = json!(true);
+    }
+    match material.alpha_mode {
+        AlphaMode::Opaque => {}
+        AlphaMode::Mask { cutoff } => {
+            object["alphaMode"] = json!("MASK");
+            object["alphaCutoff"] = json!(cutoff);
+        }
+        AlphaMode::Blend => object["alphaMode"] = json!("BLEND"),
+    }
+    let extensions = extensions(material);
+    if !extensions.is_empty() {
+        used.extend(extensions.iter().map(|(name, _)| *name));
+        object["extensions"] = extensions.into_iter().map(|(name, body)| (name.to_owned(), body)).collect();
+    }
+    object
+}
+
+fn metallic_roughness(material: &Material, used: &mut Extensions) -> Value {
+    let mut object = Map::new();
+    object.insert("baseColorFactor".into(), json!(material.base_colour.to_array()));
+    object.insert("metallicFactor".into(), json!(material.metallic));
+    object.insert("roughnessFactor".into(), json!(material.roughness));
+    if let Some(slot) = &material.base_colour_texture {
+        object.insert("baseColorTexture".into(), texture_info(slot, used));
+    }
+    if let Some(slot) = &material.metallic_roughness_texture {
+        object.insert("metallicRoughnessTexture".into(), texture_info(slot, used));
+    }
+    Value::Object(object)
+}
+
+/// Extensions by which the material differs from glTF's default.
+fn extensions(material: &Material) -> Vec<(&'static str, Value)> {
+    let plain = Material::default();
+    let mut extensions = Vec::new();
+    if strength(material.emission) > 1.0 {
+        let body = json!({ "emissiveStrength": strength(material.emission) });
+        extensions.push(("KHR_materials_emissive_strength", body));
+    }
+    if material.unlit {
+        extensions.push(("KHR_materials_unlit", json!({})));
+    }
+    if material.transmission != plain.transmission {
+        extensions.push(("KHR_materials_transmission", json!({ "transmissionFactor": material.transmission })));
+    }
+    if material.ior != plain.ior {
+        extensions.push(("KHR_materials_ior", json!({ "ior": material.ior })));
+    }
+    extensions
+}
+
+/// Emissive strength of a radiance in nit per channel.
+fn strength(emission: Vec3) -> f32 {
+    emission.max_element().max(1.0)
+}
+
+fn texture_info(slot: &TextureSlot, used: &mut Extensions) -> Value {
+    let mut info = json!({ "index": slot.texture.index() });
+    if slot.uv_set != 0 {
+        info["texCoord"] = json!(slot.uv_set);
+    }
+    if slot.transform != Affine2::IDENTITY {
+        const NAME: &str = "KHR_texture_transform";
+        used.insert(NAME);
+        // glTF turns the coordinates clockwise, as seen with V down.
+        let (scale, angle, offset) = slot.transform.to_scale_angle_translation();
+        info["extensions"] = json!({
+            NAME: { "offset": offset.to_array(), "rotation": -angle, "scale": scale.to_array() }
+        });
+    }
+    info
+}

@@ -1,0 +1,97 @@
+//! Instances as meshes: one primitive for each material and side.
+
+use std::collections::{BTreeMap, HashMap};
+
+use serde_json::{Map, Value, json};
+
+use super::binary::Binary;
+use super::material::texture_slots;
+use super::named;
+use crate::baked::VertexLight;
+use crate::base::ids::MaterialId;
+use crate::scene::{Instance, Material, Scene, Vertex};
+
+/// One mesh an instance that has triangles, in their order.
+pub(super) fn meshes(scene: &Scene, light: Option<&VertexLight>, binary: &mut Binary) -> Vec<Value> {
+    let drawn = scene.instances.iter().filter(|instance| !instance.triangles.is_empty());
+    drawn.map(|instance| mesh(scene, light, instance, binary)).collect()
+}
+
+fn mesh(scene: &Scene, light: Option<&VertexLight>, instance: &Instance, binary: &mut Binary) -> Value {
+    let mut parts: BTreeMap<(MaterialId, bool), Vec<[u32; 3]>> = BTreeMap::new();
+    for triangle in &scene.triangles[instance.triangles.clone()] {
+        parts.entry((triangle.material, triangle.is_back_side)).or_default().push(triangle.vertices);
+    }
+    let primitives: Vec<Value> = parts
+        .into_iter()
+        .map(|((material, is_back_side), triangles)| {
+            let (vertices, indices) = renumber(&triangles);
+            let mut primitive = json!({
+                "attributes": attributes(scene, light, &scene.materials[material.index()], &vertices, binary),
+                "indices": binary.push_indices(&indices, vertices.len()),
+                "material": material.index(),
+            });
+            if is_back_side {
+                primitive["extras"] = json!({ "back_side": true });
+            }
+            primitive
+        })
+        .collect();
+    let mut mesh = named(&instance.name);
+    mesh["primitives"] = json!(primitives);
+    mesh
+}
+
+/// The scene vertices that the triangles use, in the order of first use, and the triangles in those numbers.
+fn renumber(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
+    let mut vertices = Vec::new();
+    let mut number = HashMap::new();
+    let indices = triangles
+        .as_flattened()
+        .iter()
+        .map(|&vertex| {
+            *number.entry(vertex).or_insert_with(|| {
+                vertices.push(vertex);
+                vertices.len() as u32 - 1
+            })
+        })
+        .collect();
+    (vertices, indices)
+}
+
+/// Accessors of the attributes that say something; what is left out reads back as its default.
+fn attributes(
+    scene: &Scene,
+    light: Option<&VertexLight>,
+    material: &Material,
+    vertices: &[u32],
+    binary: &mut Binary,
+) -> Map<String, Value> {
+    let mut attributes = Map::new();
+    let mut put = |name: String, accessor: usize| attributes.insert(name, json!(accessor));
+    let used = || vertices.iter().map(|&v| &scene.vertices[v as usize]);
+    put("POSITION".into(), binary.push_positions(used().map(|vertex| vertex.position.to_array())));
+    put("NORMAL".into(), binary.push_attribute(used().map(|vertex| vertex.normal.to_array())));
+    for set in 0..num_uv_sets(material, used()) {
+        let coordinates = used().map(|vertex| vertex.uv[set].to_array());
+        put(format!("TEXCOORD_{set}"), binary.push_attribute(coordinates));
+    }
+    if used().any(|vertex| vertex.colour != glam::Vec4::ONE) {
+        put("COLOR_0".into(), binary.push_attribute(used().map(|vertex| vertex.colour.to_array())));
+    }
+    for (g, group) in light.iter().flat_map(|light| light.groups.iter().enumerate()) {
+        for (part, values) in [("DIRECT", &group.direct), ("INDIRECT", &group.indirect)] {
+            let values = vertices.iter().map(|&v| values[v as usize].to_array());
+            put(format!("_IRRADIANCE_{part}_{g}"), binary.push_attribute(values));
+        }
+    }
+    attributes
+}
+
+/// Texture coordinate sets from 0 on that hold something or that the material reads; glTF allows no gaps.
+fn num_uv_sets<'a>(material: &Material, vertices: impl Iterator<Item = &'a Vertex> + Clone) -> usize {
+    let read = texture_slots(material).map(|slot| slot.uv_set + 1).max().unwrap_or(0);
+    let holds = |set: usize| vertices.clone().any(|vertex| vertex.uv[set] != glam::Vec2::ZERO);
+    let held = (0..2).rev().find(|&set| holds(set)).map_or(0, |set| set + 1);
+    read.max(held)
+}

@@ -1,0 +1,155 @@
+//! Writes a bake, or a plain scene, as a standard .glb, and takes the light of a bake back out of a loaded scene.
+//!
+//! Light is stored as float vertex attributes `_IRRADIANCE_DIRECT_g` and `_IRRADIANCE_INDIRECT_g` (lux per channel, g
+//! counts the light groups), which other programs are bound to ignore. What glTF has no words for lies in `extras`:
+//! `light_groups` and `exposure_ev` of the glTF scene, `light_group` of lights and emissive materials, `back_side` of
+//! primitives. Deliberately absent: reading files, which is the loader's alone ([`crate::scene`]).
+//!
+//! Source: glTF 2.0 specification, sections 3 (concepts) and 4 (GLB file format).
+
+mod binary;
+mod material;
+mod mesh;
+mod node;
+mod read;
+
+use std::collections::BTreeSet;
+use std::io::Write as _;
+use std::path::Path;
+
+use serde_json::{Map, Value, json};
+
+use super::{BakedError, BakedScene, VertexLight};
+use crate::scene::Scene;
+use binary::Binary;
+
+pub use read::from_scene;
+
+const GLB_MAGIC: u32 = 0x4654_6c67;
+const CHUNK_JSON: u32 = 0x4e4f_534a;
+const CHUNK_BINARY: u32 = 0x004e_4942;
+
+/// Writes a bake to `path`: under a temporary name in the same folder, renamed when it is whole.
+///
+/// `exposure_ev` is the exposure that shows the scene well; viewers of this format start with it.
+///
+/// # Errors
+/// The folder is not writable, or the scene is larger than a .glb can be.
+pub fn write(path: &Path, baked: &BakedScene, exposure_ev: f32) -> Result<(), BakedError> {
+    let bytes = to_glb(baked, exposure_ev)?;
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let failed = |source| BakedError::Write { path: path.to_owned(), source };
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
+    file.write_all(&bytes).map_err(failed)?;
+    file.persist(path).map_err(|error| failed(error.error))?;
+    Ok(())
+}
+
+/// The bytes of a bake as .glb.
+///
+/// # Errors
+/// The scene is larger than a .glb can be.
+pub fn to_glb(baked: &BakedScene, exposure_ev: f32) -> Result<Vec<u8>, BakedError> {
+    let mut document = Document::of(&baked.scene, Some(&baked.light));
+    document.root["scenes"][0]["extras"]["exposure_ev"] = json!(exposure_ev);
+    document.into_glb()
+}
+
+/// The bytes of a scene without light as .glb.
+///
+/// # Errors
+/// The scene is larger than a .glb can be.
+pub fn scene_to_glb(scene: &Scene) -> Result<Vec<u8>, BakedError> {
+    Document::of(scene, None).into_glb()
+}
+
+/// Extensions that the written parts make use of.
+type Extensions = BTreeSet<&'static str>;
+
+/// The two halves of a .glb.
+struct Document {
+    root: Value,
+    binary: Vec<u8>,
+}
+
+impl Document {
+    /// Tells a scene in glTF's arrays; an empty array must not be written.
+    fn of(scene: &Scene, light: Option<&VertexLight>) -> Self {
+        let mut binary = Binary::default();
+        let mut extensions = Extensions::new();
+        let meshes = mesh::meshes(scene, light, &mut binary);
+        let images = material::unique_images(scene);
+        let mut root = Map::new();
+        let mut put = |key: &str, items: Vec<Value>| {
+            if !items.is_empty() {
+                root.insert(key.to_owned(), Value::Array(items));
+            }
+        };
+        put("images", material::images(&images, &mut binary));
+        put("samplers", material::samplers(scene));
+        put("textures", material::textures(scene, &images));
+        put("materials", material::materials(scene, &mut extensions));
+        put("cameras", node::cameras(scene));
+        let nodes = node::nodes(scene, &meshes);
+        let node_ids: Vec<usize> = (0..nodes.len()).collect();
+        put("nodes", nodes);
+        put("meshes", meshes);
+        put("accessors", binary.accessors);
+        put("bufferViews", binary.views);
+        if !binary.bytes.is_empty() {
+            put("buffers", vec![json!({ "byteLength": binary.bytes.len() })]);
+        }
+        if !scene.lights.is_empty() {
+            extensions.insert(node::LIGHTS_EXTENSION);
+            root.insert("extensions".into(), json!({ node::LIGHTS_EXTENSION: { "lights": node::lights(scene) } }));
+        }
+        if !extensions.is_empty() {
+            root.insert("extensionsUsed".into(), json!(extensions));
+        }
+        root.insert("asset".into(), json!({ "version": "2.0", "generator": "hemicube" }));
+        root.insert("scene".into(), json!(0));
+        root.insert("scenes".into(), json!([scene_object(scene, &node_ids)]));
+        Self { root: Value::Object(root), binary: binary.bytes }
+    }
+
+    /// Packs the halves into one file: a header and two chunks, each padded to four bytes.
+    fn into_glb(self) -> Result<Vec<u8>, BakedError> {
+        let mut text = self.root.to_string().into_bytes();
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let mut chunks = vec![(CHUNK_JSON, text)];
+        if !self.binary.is_empty() {
+            let mut bytes = self.binary;
+            bytes.resize(bytes.len().next_multiple_of(4), 0);
+            chunks.push((CHUNK_BINARY, bytes));
+        }
+        let total: usize = 12 + chunks.iter().map(|(_, bytes)| 8 + bytes.len()).sum::<usize>();
+        let total = u32::try_from(total).map_err(|_| BakedError::TooLarge { bytes: total })?;
+        let mut glb = Vec::with_capacity(total as usize);
+        glb.extend([GLB_MAGIC, 2, total].into_iter().flat_map(u32::to_le_bytes));
+        for (kind, bytes) in chunks {
+            glb.extend([bytes.len() as u32, kind].into_iter().flat_map(u32::to_le_bytes));
+            glb.extend(bytes);
+        }
+        Ok(glb)
+    }
+}
+
+fn scene_object(scene: &Scene, node_ids: &[usize]) -> Value {
+    let mut object = named(&scene.name);
+    if !node_ids.is_empty() {
+        object["nodes"] = json!(node_ids);
+    }
+    object["extras"] = json!({ "light_groups": scene.light_groups });
+    object
+}
+
+/// An object with a name, or an empty one where the name is empty.
+fn named(name: &str) -> Value {
+    if name.is_empty() { json!({}) } else { json!({ "name": name }) }
+}
+
+#[cfg(test)]
+mod tests;

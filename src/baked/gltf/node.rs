@@ -1,0 +1,109 @@
+//! Nodes: meshes, which already stand in the world, and the lights and cameras, which a node places.
+
+use glam::{Quat, Vec3};
+use serde_json::{Value, json};
+
+use super::named;
+use crate::base::ids::GroupId;
+use crate::scene::{Camera, Light, LightKind, Projection, Scene};
+
+/// Name of the extension that holds the lights.
+pub(super) const LIGHTS_EXTENSION: &str = "KHR_lights_punctual";
+
+/// Where a perspective view begins, metres; glTF wants one, nobody here reads it.
+const NEAR: f32 = 0.01;
+/// Where an orthographic view ends, metres; glTF wants one, nobody here reads it.
+const FAR: f32 = 1000.0;
+
+/// One node for every mesh, light and camera, in this order.
+pub(super) fn nodes(scene: &Scene, meshes: &[Value]) -> Vec<Value> {
+    let mesh_node = |(id, mesh): (usize, &Value)| {
+        let mut node = named(mesh["name"].as_str().unwrap_or(""));
+        node["mesh"] = json!(id);
+        node
+    };
+    let light_node = |(id, light): (usize, &Light)| {
+        let (translation, rotation) = place_of_light(light);
+        let mut node = placed(&light.name, translation, rotation);
+        node["extensions"] = json!({ LIGHTS_EXTENSION: { "light": id } });
+        node
+    };
+    let camera_node = |(id, camera): (usize, &Camera)| {
+        let mut node = placed(&camera.name, camera.position, camera.world_from_view);
+        node["camera"] = json!(id);
+        node
+    };
+    let meshes = meshes.iter().enumerate().map(mesh_node);
+    let lights = scene.lights.iter().enumerate().map(light_node);
+    let cameras = scene.cameras.iter().enumerate().map(camera_node);
+    meshes.chain(lights).chain(cameras).collect()
+}
+
+fn placed(name: &str, translation: Vec3, rotation: Quat) -> Value {
+    let mut node = named(name);
+    node["translation"] = json!(translation.to_array());
+    node["rotation"] = json!(rotation.to_array());
+    node
+}
+
+/// A light of glTF shines along its node's -Z.
+fn place_of_light(light: &Light) -> (Vec3, Quat) {
+    let turned = |direction| Quat::from_rotation_arc(Vec3::NEG_Z, direction).normalize();
+    match light.kind {
+        LightKind::Point { position } => (position, Quat::IDENTITY),
+        LightKind::Spot { position, direction, .. } => (position, turned(direction)),
+        LightKind::Directional { direction } => (Vec3::ZERO, turned(direction)),
+    }
+}
+
+/// The lights of KHR_lights_punctual.
+pub(super) fn lights(scene: &Scene) -> Vec<Value> {
+    scene.lights.iter().map(|light| punctual_light(light, group_name(scene, light.group))).collect()
+}
+
+fn punctual_light(light: &Light, group: &str) -> Value {
+    let intensity = light.intensity.max_element();
+    // The colour is at most one a channel; a light that is off has any.
+    let colour = if intensity > 0.0 { light.intensity / intensity } else { Vec3::ONE };
+    let mut object = named(&light.name);
+    object["intensity"] = json!(intensity);
+    object["color"] = json!(colour.to_array());
+    object["extras"] = json!({ "light_group": group });
+    if let Some(range) = light.range {
+        object["range"] = json!(range);
+    }
+    match light.kind {
+        LightKind::Point { .. } => object["type"] = json!("point"),
+        LightKind::Directional { .. } => object["type"] = json!("directional"),
+        LightKind::Spot { inner_angle, outer_angle, .. } => {
+            object["type"] = json!("spot");
+            object["spot"] = json!({ "innerConeAngle": inner_angle, "outerConeAngle": outer_angle });
+        }
+    }
+    object
+}
+
+/// Name of a light group.
+pub(super) fn group_name(scene: &Scene, group: GroupId) -> &str {
+    &scene.light_groups[group.index()]
+}
+
+/// The cameras as glTF tells them; their places are told by [`nodes`].
+pub(super) fn cameras(scene: &Scene) -> Vec<Value> {
+    scene.cameras.iter().map(camera).collect()
+}
+
+fn camera(camera: &Camera) -> Value {
+    let mut object = named(&camera.name);
+    match camera.projection {
+        Projection::Perspective { fov_y } => {
+            object["type"] = json!("perspective");
+            object["perspective"] = json!({ "yfov": fov_y, "znear": NEAR });
+        }
+        Projection::Orthographic { half_height } => {
+            object["type"] = json!("orthographic");
+            object["orthographic"] = json!({ "xmag": half_height, "ymag": half_height, "znear": 0.0, "zfar": FAR });
+        }
+    }
+    object
+}

@@ -1,0 +1,85 @@
+//! A bake read back: a loaded scene whose vertices carry light.
+
+use crate::baked::{BakedScene, GroupLight, VertexLight};
+use crate::scene::{Scene, VertexAttribute};
+
+/// Takes the stored light out of a loaded scene.
+///
+/// A group whose light is stored in part is dark in the rest; groups that the file does not name get a number for a
+/// name.
+///
+/// # Errors
+/// The scene itself, unchanged, where it carries no light.
+#[expect(clippy::result_large_err, reason = "the error is the argument handed back, once a file")]
+pub fn from_scene(mut scene: Scene) -> Result<BakedScene, Scene> {
+    // More groups than attributes would be a broken file, and an excuse to ask for all memory.
+    let limit = scene.irradiance.len();
+    let place_of = |attribute: &VertexAttribute| place(&attribute.name).filter(|&(_, group)| group < limit);
+    let Some(last) = scene.irradiance.iter().filter_map(place_of).map(|(_, group)| group).max() else {
+        return Err(scene);
+    };
+    for g in scene.light_groups.len()..=last {
+        scene.light_groups.push(format!("group {g}"));
+    }
+    let mut light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
+    for attribute in std::mem::take(&mut scene.irradiance) {
+        if let Some((part, group)) = place_of(&attribute) {
+            *part(&mut light.groups[group]) = attribute.values;
+        }
+    }
+    Ok(BakedScene { scene, light })
+}
+
+/// Picks the direct or the indirect half of a group's light.
+type Part = fn(&mut GroupLight) -> &mut Vec<glam::Vec3>;
+
+/// Which half of which group an attribute holds.
+fn place(name: &str) -> Option<(Part, usize)> {
+    let (part, number): (Part, _) = if let Some(number) = name.strip_prefix("_IRRADIANCE_DIRECT_") {
+        (|group| &mut group.direct, number)
+    } else {
+        (|group| &mut group.indirect, name.strip_prefix("_IRRADIANCE_INDIRECT_")?)
+    };
+    Some((part, number.parse().ok()?))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::Vertex;
+    use glam::{Vec2, Vec3, Vec4};
+
+    fn scene_with(attributes: &[(&str, f32)]) -> Scene {
+        let vertex = Vertex { position: Vec3::ZERO, normal: Vec3::Y, uv: [Vec2::ZERO; 2], colour: Vec4::ONE };
+        let attribute =
+            |&(name, value): &(&str, f32)| VertexAttribute { name: name.to_owned(), values: vec![Vec3::splat(value)] };
+        Scene {
+            vertices: vec![vertex],
+            irradiance: attributes.iter().map(attribute).collect(),
+            light_groups: vec!["sun".into()],
+            ..Scene::default()
+        }
+    }
+
+    #[test]
+    fn a_scene_without_light_comes_back_as_it_was() {
+        assert!(from_scene(scene_with(&[])).is_err());
+        let other = from_scene(scene_with(&[("_IRRADIANCE_TOTAL", 1.0)])).unwrap_err();
+        assert_eq!(other.irradiance.len(), 1);
+    }
+
+    #[test]
+    fn halves_find_their_groups_and_missing_ones_are_dark() {
+        let attributes = [("_IRRADIANCE_DIRECT_1", 1.0), ("_IRRADIANCE_INDIRECT_0", 2.0)];
+        let baked = from_scene(scene_with(&attributes)).expect("there is light");
+        assert_eq!(baked.scene.light_groups, ["sun", "group 1"]);
+        let [sun, other] = &baked.light.groups[..] else { panic!("two groups") };
+        assert_eq!((sun.direct[0], sun.indirect[0]), (Vec3::ZERO, Vec3::splat(2.0)));
+        assert_eq!((other.direct[0], other.indirect[0]), (Vec3::ONE, Vec3::ZERO));
+    }
+
+    #[test]
+    fn a_group_number_out_of_all_bounds_is_no_light() {
+        assert!(from_scene(scene_with(&[("_IRRADIANCE_DIRECT_4000000000", 1.0)])).is_err());
+    }
+}

@@ -1,0 +1,72 @@
+//! `hemicube bake`: solves the light of a scene and writes it as a standard .glb.
+
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use clap::Args;
+
+use super::bake_options::{BakeOptions, bake_watched, load};
+use crate::bake::Report;
+use crate::baked;
+use crate::gpu::Gpu;
+
+/// Options of `hemicube bake`.
+#[derive(Args, Debug)]
+pub struct BakeArgs {
+    /// Scene to bake: .glb or .gltf (FILE#NAME chooses one of its scenes), builtin:gallery or builtin:cornell.
+    #[arg(default_value = "builtin:gallery")]
+    pub scene: PathBuf,
+    /// The baked scene, a .glb.
+    #[arg(short, long, value_name = "OUT.glb")]
+    pub output: PathBuf,
+    /// How to bake.
+    #[command(flatten)]
+    pub bake: BakeOptions,
+    /// Writes the solution's certificate: counts, energy balance, times.
+    #[arg(long, value_name = "R.json")]
+    pub report: Option<PathBuf>,
+}
+
+/// Bakes and writes.
+///
+/// # Errors
+/// The scene cannot be loaded or baked, or an output cannot be written.
+pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
+    if args.output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("glb")) {
+        bail!("{}: a bake is written as .glb", args.output.display());
+    }
+    let scene = load(&args.scene)?;
+    let gpu = Gpu::headless()?;
+    let bake = bake_watched(&gpu, &scene, &args.bake, is_quiet)?;
+    baked::gltf::write(&args.output, &bake.baked, 0.0)?;
+    if let Some(path) = &args.report {
+        write_report(path, &bake.report)?;
+    }
+    if !is_quiet {
+        let Report { elements, patches, hemicubes, seconds, unshot_share, .. } = &bake.report;
+        eprintln!(
+            "{}: {elements} elements, {patches} patches, {hemicubes} hemicubes, {:.2} % unshot, {:.1} s",
+            args.output.display(),
+            100.0 * unshot_share,
+            seconds.total
+        );
+    }
+    if bake.report.cancelled {
+        eprintln!("stopped early: what was solved until then is in the file");
+    }
+    Ok(())
+}
+
+/// Writes the report under a temporary name and renames it.
+fn write_report(path: &Path, report: &Report) -> Result<()> {
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
+    let write = || -> Result<()> {
+        let mut file = tempfile::NamedTempFile::new_in(folder)?;
+        serde_json::to_writer_pretty(&mut file, report)?;
+        file.write_all(b"\n")?;
+        file.persist(path)?;
+        Ok(())
+    };
+    write().with_context(|| format!("{}: cannot be written", path.display()))
+}

@@ -1,0 +1,121 @@
+//! Options of every subcommand that may have to bake, and the way from a file to a lit scene.
+
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use anyhow::{Context, Result, bail};
+use clap::{Args, ValueEnum};
+
+use crate::bake::{Bake, BakeSettings, Quality, bake};
+use crate::baked::{self, BakedScene};
+use crate::base::progress::Cancel;
+use crate::gpu::Gpu;
+use crate::scene::{Scene, builtin, gltf};
+
+use super::terminal::TerminalWatch;
+
+/// How to bake.
+#[derive(Args, Clone, Debug)]
+pub struct BakeOptions {
+    /// Preset: draft is a first look, medium for walking through, high for measuring.
+    #[arg(long, value_enum, default_value = "medium")]
+    pub quality: QualityName,
+    /// Longest element edge in metres [default: chosen from the scene's area and the preset].
+    #[arg(long, value_name = "M", value_parser = positive)]
+    pub element_size: Option<f32>,
+    /// Width of the gathering hemicubes in pixels, a power of two from 16 to 512 [default: 32, 64 or 128 by preset].
+    #[arg(long, value_name = "PX", value_parser = hemicube_size)]
+    pub hemicube_size: Option<u32>,
+    /// Ends after this many shots a patch on average [default: 64].
+    #[arg(long, value_name = "N")]
+    pub passes: Option<usize>,
+    /// Ends when this share of the first reflected power is unshot [default: 0.01, 0.001 or 0.0003 by preset].
+    #[arg(long, value_name = "X", value_parser = positive)]
+    pub threshold: Option<f32>,
+}
+
+/// Presets as written on the command line.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum QualityName {
+    /// A first look.
+    Draft,
+    /// For walking through.
+    Medium,
+    /// For measuring.
+    High,
+}
+
+impl BakeOptions {
+    /// The settings that the options mean.
+    #[must_use]
+    pub fn settings(&self) -> BakeSettings {
+        let preset = BakeSettings::preset(match self.quality {
+            QualityName::Draft => Quality::Draft,
+            QualityName::Medium => Quality::Medium,
+            QualityName::High => Quality::High,
+        });
+        BakeSettings {
+            element_size: self.element_size,
+            hemicube_px: self.hemicube_size.unwrap_or(preset.hemicube_px),
+            threshold: self.threshold.unwrap_or(preset.threshold),
+            max_passes: self.passes.unwrap_or(preset.max_passes),
+            ..preset
+        }
+    }
+}
+
+fn positive(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(value) if value > 0.0 && f32::is_finite(value) => Ok(value),
+        _ => Err("must be a positive number".to_owned()),
+    }
+}
+
+fn hemicube_size(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(size @ (16 | 32 | 64 | 128 | 256 | 512)) => Ok(size),
+        _ => Err("must be 16, 32, 64, 128, 256 or 512".to_owned()),
+    }
+}
+
+/// Loads a scene: a file, or `builtin:gallery`, `builtin:cornell`.
+///
+/// # Errors
+/// The file cannot be loaded, or there is no such built-in scene.
+pub fn load(path: &Path) -> Result<Scene> {
+    match path.to_str().and_then(|text| text.strip_prefix("builtin:")) {
+        Some("gallery") => Ok(builtin::gallery()),
+        Some("cornell") => Ok(builtin::cornell()),
+        Some(other) => bail!("there is no built-in scene {other}; there are gallery and cornell"),
+        None => Ok(gltf::load(path)?),
+    }
+}
+
+/// Bakes with progress on the terminal; Ctrl-C ends it after the current batch and keeps what is solved.
+///
+/// # Errors
+/// The scene cannot be baked.
+pub fn bake_watched(gpu: &Gpu, scene: &Scene, options: &BakeOptions, is_quiet: bool) -> Result<Bake> {
+    let cancel = Arc::new(Cancel::default());
+    let on_interrupt = Arc::clone(&cancel);
+    ctrlc::set_handler(move || on_interrupt.cancel()).context("Ctrl-C cannot be caught")?;
+    let watch = TerminalWatch::new(cancel, !is_quiet && std::io::stderr().is_terminal());
+    let finished = bake(gpu, scene, &options.settings(), &watch)?;
+    watch.finish();
+    for note in &scene.notes {
+        log::info!("{note}");
+    }
+    Ok(finished)
+}
+
+/// The scene of `path` with its light: stored in the file, or baked now.
+///
+/// # Errors
+/// The scene cannot be loaded or baked.
+pub fn lit_scene(gpu: &Gpu, path: &PathBuf, options: &BakeOptions, is_quiet: bool) -> Result<BakedScene> {
+    match baked::gltf::from_scene(load(path)?) {
+        Ok(baked) => Ok(baked),
+        Err(scene) => Ok(bake_watched(gpu, &scene, options, is_quiet)?.baked),
+    }
+}

@@ -1,0 +1,110 @@
+//! `hemicube info`: what is in a scene, and what the mesh doctor finds.
+
+use std::fmt::{self, Write as _};
+use std::io::{ErrorKind, Write as _};
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::Args;
+
+use super::bake_options::load;
+use crate::base::colour::luminance;
+use crate::scene::{Camera, Light, LightKind, Projection, Scene, doctor};
+
+/// Options of `hemicube info`.
+#[derive(Args, Debug)]
+pub struct InfoArgs {
+    /// Scene to look into: .glb or .gltf; FILE#NAME chooses one of its scenes.
+    pub scene: PathBuf,
+}
+
+/// Prints the report on stdout.
+///
+/// Errors: the scene cannot be loaded.
+pub fn run(args: &InfoArgs) -> Result<()> {
+    let scene = load(&args.scene)?;
+    let mut text = String::new();
+    write_report(&mut text, &scene)?;
+    match std::io::stdout().write_all(text.as_bytes()) {
+        // The reader has seen enough, as in `hemicube info X | head`.
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
+        other => Ok(other?),
+    }
+}
+
+fn write_report(out: &mut String, scene: &Scene) -> fmt::Result {
+    let (low, high) = scene.bounds();
+    let size = high - low;
+    writeln!(out, "{}", scene.name)?;
+    row(out, "triangles", scene.triangles.len())?;
+    row(out, "vertices", scene.vertices.len())?;
+    row(out, "instances", scene.instances.len())?;
+    row(out, "materials", scene.materials.len())?;
+    row(out, "textures", scene.textures.len())?;
+    if !scene.triangles.is_empty() {
+        row(out, "size", format_args!("{:.3} x {:.3} x {:.3} m (x, y up, z)", size.x, size.y, size.z))?;
+        row(out, "bounds", format_args!("{low:.3} to {high:.3}"))?;
+        row(out, "area", format_args!("{:.3} m2", scene.area()))?;
+    }
+    section(out, "lights", scene.lights.iter().map(|light| (light.name.clone(), describe_light(light))))?;
+    section(out, "emissive materials", emitters(scene))?;
+    let groups = scene.light_groups.iter().enumerate().map(|(g, name)| (g.to_string(), name.clone()));
+    section(out, "light groups", groups)?;
+    section(out, "cameras", scene.cameras.iter().map(|camera| (camera.name.clone(), describe_camera(camera))))?;
+    let stored = scene.irradiance.iter().map(|stored| (stored.name.clone(), format!("{} values", stored.values.len())));
+    section(out, "stored light", stored)?;
+    list(out, "notes", &scene.notes)?;
+    list(out, "mesh doctor", &doctor::examine(scene).lines())
+}
+
+fn row(out: &mut String, label: &str, value: impl fmt::Display) -> fmt::Result {
+    writeln!(out, "  {label:<12}{value}")
+}
+
+/// A heading and aligned pairs; nothing where there are none.
+fn section(out: &mut String, title: &str, pairs: impl Iterator<Item = (String, String)>) -> fmt::Result {
+    let pairs: Vec<_> = pairs.collect();
+    let width = pairs.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0).max(10);
+    if !pairs.is_empty() {
+        writeln!(out, "{title}")?;
+    }
+    pairs.iter().try_for_each(|(name, text)| writeln!(out, "  {name:<width$}  {text}"))
+}
+
+fn list(out: &mut String, title: &str, lines: &[String]) -> fmt::Result {
+    if !lines.is_empty() {
+        writeln!(out, "{title}")?;
+    }
+    lines.iter().try_for_each(|line| writeln!(out, "  - {line}"))
+}
+
+fn describe_light(light: &Light) -> String {
+    let amount = luminance(light.intensity);
+    let range = light.range.map_or_else(String::new, |range| format!(", range {range} m"));
+    match light.kind {
+        LightKind::Point { position } => format!("point        {amount:>10.2} cd  at {position:.2}{range}"),
+        LightKind::Spot { position, direction, inner_angle, outer_angle } => {
+            let (inner, outer) = (inner_angle.to_degrees(), outer_angle.to_degrees());
+            format!(
+                "spot         {amount:>10.2} cd  at {position:.2} towards {direction:.2}, cone {inner:.1} to {outer:.1} deg{range}"
+            )
+        }
+        LightKind::Directional { direction } => format!("directional  {amount:>10.2} lx  towards {direction:.2}"),
+    }
+}
+
+fn emitters(scene: &Scene) -> impl Iterator<Item = (String, String)> {
+    let in_use = scene.materials.iter().filter(|material| material.group.is_some());
+    in_use.map(|material| {
+        let textured = if material.emissive_texture.is_some() { " x texture" } else { "" };
+        (material.name.clone(), format!("{:>10.2} nit{textured}", luminance(material.emission)))
+    })
+}
+
+fn describe_camera(camera: &Camera) -> String {
+    let projection = match camera.projection {
+        Projection::Perspective { fov_y } => format!("perspective, {:.1} deg high", fov_y.to_degrees()),
+        Projection::Orthographic { half_height } => format!("orthographic, {:.2} m high", 2.0 * half_height),
+    };
+    format!("{projection}, at {:.2} looking along {:.2}", camera.position, camera.forward())
+}

@@ -1,0 +1,222 @@
+//! The scene as the item buffer draws it: input triangles in chunks, bisection trees, cut-outs.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{UVec3, Vec2, Vec3};
+use wgpu::util::DeviceExt;
+
+use super::faces::{Bounds, Frustum};
+use crate::base::ids::{MaterialId, TriangleId};
+use crate::gpu::Gpu;
+use crate::patch::PatchMesh;
+use crate::scene::{AlphaMode, Scene, Wrap};
+
+/// Triangles that are culled together.
+const CHUNK: usize = 64;
+
+/// Buffers and chunk boxes of one scene.
+pub(super) struct Geometry {
+    pub corners: wgpu::Buffer,
+    pub triangles: wgpu::Buffer,
+    pub tree: wgpu::Buffer,
+    pub cutouts: wgpu::Buffer,
+    pub alphas: wgpu::Buffer,
+    pub has_cutouts: bool,
+    chunks: Vec<Bounds>,
+    num_triangles: u32,
+}
+
+impl Geometry {
+    pub(super) fn new(gpu: &Gpu, scene: &Scene, mesh: &PatchMesh) -> Self {
+        let order = spatial_order(scene);
+        let corners = |t: &TriangleId| scene.corners(*t);
+        let positions: Vec<[f32; 4]> = order.iter().flat_map(corners).map(|p| p.extend(1.0).to_array()).collect();
+        let chunks = order.chunks(CHUNK).map(|chunk| bounds_of(chunk.iter().flat_map(corners))).collect();
+        let mut cutouts = Cutouts::default();
+        let triangles: Vec<gpu_data::Triangle> =
+            order.iter().map(|&t| cutouts.describe_triangle(scene, mesh, t)).collect();
+        let has_cutouts = !cutouts.records.is_empty();
+        // Empty bindings are not allowed.
+        cutouts.records.push(gpu_data::Cutout::zeroed());
+        cutouts.alphas.resize((cutouts.alphas.len() + 1).next_multiple_of(4), 0);
+        let buffer = |label, contents: &[u8]| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some(label),
+                contents,
+                usage: wgpu::BufferUsages::STORAGE,
+            })
+        };
+        Self {
+            corners: buffer("hemicube corners", bytemuck::cast_slice(&positions)),
+            triangles: buffer("hemicube triangles", bytemuck::cast_slice(&triangles)),
+            tree: buffer("hemicube trees", bytemuck::cast_slice(&mesh.tree)),
+            cutouts: buffer("hemicube cut-outs", bytemuck::cast_slice(&cutouts.records)),
+            alphas: buffer("hemicube alphas", &cutouts.alphas),
+            has_cutouts,
+            chunks,
+            num_triangles: order.len() as u32,
+        }
+    }
+
+    /// Ranges of vertices whose triangles `frustum` may see, neighbouring chunks in one.
+    pub(super) fn visible_vertices(&self, frustum: &Frustum, ranges: &mut Vec<Range<u32>>) {
+        ranges.clear();
+        if self.chunks.len() == 1 {
+            ranges.push(0..3 * self.num_triangles);
+            return;
+        }
+        for (i, bounds) in self.chunks.iter().enumerate() {
+            if !frustum.meets(bounds) {
+                continue;
+            }
+            let first = (i * CHUNK) as u32;
+            let end = (first + CHUNK as u32).min(self.num_triangles);
+            match ranges.last_mut() {
+                Some(range) if range.end == 3 * first => range.end = 3 * end,
+                _ => ranges.push(3 * first..3 * end),
+            }
+        }
+    }
+}
+
+/// All triangles along a Morton curve through their centroids, so that chunks are compact.
+fn spatial_order(scene: &Scene) -> Vec<TriangleId> {
+    let (low, high) = scene.bounds();
+    let scale = 1023.0 / (high - low).max(Vec3::splat(1e-6));
+    let mut order: Vec<TriangleId> = (0..scene.triangles.len()).map(TriangleId::new).collect();
+    order.sort_by_cached_key(|&t| {
+        let [a, b, c] = scene.corners(t);
+        morton((((a + b + c) / 3.0 - low) * scale).as_uvec3())
+    });
+    order
+}
+
+/// Interleaves the low ten bits of three coordinates.
+fn morton(cell: UVec3) -> u32 {
+    let spread = |x: u32| {
+        let x = (x | x << 16) & 0x0300_00ff;
+        let x = (x | x << 8) & 0x0300_f00f;
+        let x = (x | x << 4) & 0x030c_30c3;
+        (x | x << 2) & 0x0924_9249
+    };
+    spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2
+}
+
+fn bounds_of(points: impl Iterator<Item = Vec3>) -> Bounds {
+    let empty = Bounds { low: Vec3::splat(f32::INFINITY), high: Vec3::splat(f32::NEG_INFINITY) };
+    points.fold(empty, |bounds, p| Bounds { low: bounds.low.min(p), high: bounds.high.max(p) })
+}
+
+/// Alpha channels of the materials that let light through, gathered while triangles are described.
+#[derive(Default)]
+struct Cutouts {
+    records: Vec<gpu_data::Cutout>,
+    alphas: Vec<u8>,
+    index_of: HashMap<MaterialId, u32>,
+}
+
+impl Cutouts {
+    fn describe_triangle(&mut self, scene: &Scene, mesh: &PatchMesh, id: TriangleId) -> gpu_data::Triangle {
+        let root = mesh.roots[id.index()];
+        let triangle = &scene.triangles[id.index()];
+        let material = scene.material_of(id);
+        let cutout = match material.alpha_mode {
+            AlphaMode::Opaque => 0,
+            AlphaMode::Mask { .. } | AlphaMode::Blend => self.index_of(scene, triangle.material) + 1,
+        };
+        let vertices = triangle.vertices.map(|v| &scene.vertices[v as usize]);
+        let slot = material.base_colour_texture;
+        let uv = vertices.map(|v| slot.map_or(Vec2::ZERO, |slot| slot.coordinate(v.uv)).to_array());
+        let alpha_byte = |i: usize| ((vertices[i].colour.w * 255.0).round() as u32).min(255) << (8 * i);
+        gpu_data::Triangle {
+            root: root.node,
+            back_offset: if root.has_backs { root.num_elements } else { 0 },
+            cutout,
+            padding: 0,
+            uv,
+            vertex_alpha: alpha_byte(0) | alpha_byte(1) | alpha_byte(2),
+            padding_2: 0,
+        }
+    }
+
+    fn index_of(&mut self, scene: &Scene, id: MaterialId) -> u32 {
+        if let Some(&index) = self.index_of.get(&id) {
+            return index;
+        }
+        let material = &scene.materials[id.index()];
+        let first_texel = self.alphas.len() as u32;
+        let (size, wrap) = match &material.base_colour_texture {
+            Some(slot) => {
+                let texture = &scene.textures[slot.texture.index()];
+                self.alphas.extend(texture.image.rgba.iter().skip(3).step_by(4));
+                let wrap = wrap_code(texture.sampler.wrap_u) | wrap_code(texture.sampler.wrap_v) << 16;
+                ([texture.image.width, texture.image.height], wrap)
+            }
+            None => {
+                self.alphas.push(255);
+                ([1, 1], 0)
+            }
+        };
+        let cutoff = match material.alpha_mode {
+            AlphaMode::Mask { cutoff } => cutoff,
+            AlphaMode::Opaque | AlphaMode::Blend => -1.0,
+        };
+        let index = self.records.len() as u32;
+        let alpha_factor = material.base_colour.w;
+        self.records.push(gpu_data::Cutout { first_texel, padding: 0, size, wrap, alpha_factor, cutoff, padding_2: 0 });
+        self.index_of.insert(id, index);
+        index
+    }
+}
+
+fn wrap_code(wrap: Wrap) -> u32 {
+    match wrap {
+        Wrap::Repeat => 0,
+        Wrap::Mirror => 1,
+        Wrap::Clamp => 2,
+    }
+}
+
+/// Keep in step with `shaders/item_buffer.wgsl`.
+mod gpu_data {
+    use super::{Pod, Zeroable};
+
+    #[repr(C)]
+    #[derive(Clone, Copy, Pod, Zeroable)]
+    pub struct Triangle {
+        pub root: u32,
+        pub back_offset: u32,
+        pub cutout: u32,
+        pub padding: u32,
+        pub uv: [[f32; 2]; 3],
+        pub vertex_alpha: u32,
+        pub padding_2: u32,
+    }
+
+    #[repr(C)]
+    #[derive(Clone, Copy, Pod, Zeroable)]
+    pub struct Cutout {
+        pub first_texel: u32,
+        pub padding: u32,
+        pub size: [u32; 2],
+        pub wrap: u32,
+        pub alpha_factor: f32,
+        pub cutoff: f32,
+        pub padding_2: u32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn morton_codes_interleave() {
+        assert_eq!(morton(UVec3::new(1, 0, 0)), 1);
+        assert_eq!(morton(UVec3::new(0, 1, 0)), 2);
+        assert_eq!(morton(UVec3::new(0, 0, 1)), 4);
+        assert_eq!(morton(UVec3::new(1023, 1023, 1023)), (1 << 30) - 1);
+    }
+}

@@ -1,0 +1,90 @@
+//! Floor 3: form factors, asked for in batches of viewpoints and handed back as sparse rows.
+//!
+//! F(x, e) is the share of what leaves a small surface at x that arrives at element e; seen the other way round, it is the
+//! weight of e's radiosity in the irradiance at x. One row serves shooting and gathering. Methods implement
+//! [`FormFactors`] and check each other in the tests.
+
+pub mod analytic;
+pub mod hemicube;
+
+use std::sync::OnceLock;
+
+use glam::Vec3;
+use thiserror::Error;
+
+use crate::base::ids::ElementId;
+use crate::gpu::GpuError;
+
+/// A small piece of surface that looks at the scene.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Viewpoint {
+    /// Metres; a hair above its surface.
+    pub position: Vec3,
+    /// Unit normal of the surface.
+    pub normal: Vec3,
+    /// Turns the sampling pattern about the normal, so that aliasing becomes noise and not bands.
+    pub seed: u32,
+}
+
+/// Form factors from one viewpoint: all entries, `back` and `sky` sum to 1.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Elements seen; an element may occur more than once.
+    pub entries: Vec<Entry>,
+    /// Share that ends on the back of single-sided surfaces: a viewpoint inside a wall sees little else.
+    pub back: f32,
+    /// Share that leaves the scene.
+    pub sky: f32,
+}
+
+/// One form factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Entry {
+    /// Receiver.
+    pub element: ElementId,
+    /// F, 0..1.
+    pub factor: f32,
+}
+
+/// Form factors could not be found.
+#[derive(Debug, Error)]
+pub enum FormFactorError {
+    /// The device failed.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+}
+
+/// A method that finds rows of form factors.
+pub trait FormFactors {
+    /// Finds the rows of `viewpoints` and gives each to `take` with its index, in batches and in parallel.
+    ///
+    /// Asks `go_on` before each batch and stops where it says no. Returns how many rows were given: always those of the
+    /// first viewpoints.
+    ///
+    /// # Errors
+    /// The device failed.
+    fn rows(
+        &mut self,
+        viewpoints: &[Viewpoint],
+        go_on: &dyn Fn() -> bool,
+        take: &(dyn Fn(usize, &Row) + Sync),
+    ) -> Result<usize, FormFactorError>;
+}
+
+/// What `reduce` makes of the rows of `viewpoints`; fewer than asked for where `go_on` said no.
+///
+/// # Errors
+/// The device failed.
+pub fn map_rows<T: Send + Sync>(
+    method: &mut dyn FormFactors,
+    viewpoints: &[Viewpoint],
+    go_on: &dyn Fn() -> bool,
+    reduce: impl Fn(usize, &Row) -> T + Sync,
+) -> Result<Vec<T>, FormFactorError> {
+    let results: Vec<OnceLock<T>> = viewpoints.iter().map(|_| OnceLock::new()).collect();
+    let num_rows = method.rows(viewpoints, go_on, &|index, row| {
+        // Each index is given once.
+        let _ = results[index].set(reduce(index, row));
+    })?;
+    Ok(results.into_iter().take(num_rows).filter_map(OnceLock::into_inner).collect())
+}

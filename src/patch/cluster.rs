@@ -1,0 +1,128 @@
+//! Patches: clusters of neighbouring elements that face alike.
+//!
+//! Real scenes have many tiny triangles; shooting from each would cost a hemicube a triangle. Elements of one instance and
+//! material within one cell of a grid, with normals in one bin, that hang together over shared edges, shoot as one.
+//!
+//! Source: Cohen, Greenberg, Immel, Brock 1986 (patches and elements); Willmott, Heckbert, Garland 1999 (face clusters).
+
+use std::collections::HashMap;
+
+use glam::{IVec3, Vec3};
+
+use super::{Element, Patch, PatchMesh};
+use crate::base::ids::{ElementId, PatchId};
+use crate::scene::{Scene, normal_of};
+
+/// Normals are binned on the faces of a cube of this many cells a side: clusters span about 40 degrees.
+const NORMAL_CELLS: f32 = 1.5;
+
+/// Groups the elements of `mesh` into patches about `patch_size` metres wide.
+pub(super) fn cluster(mesh: &mut PatchMesh, scene: &Scene, patch_size: f32) {
+    let mut clusters = UnionFind::new(mesh.elements.len());
+    let keys: Vec<Key> = mesh.elements.iter().map(|element| key_of(mesh, scene, element, patch_size)).collect();
+    join_across_edges(mesh, &keys, &mut clusters);
+    number_patches(mesh, &mut clusters);
+    list_members(mesh);
+}
+
+/// Elements with different keys never share a patch.
+#[derive(PartialEq, Eq)]
+struct Key {
+    cell: IVec3,
+    normal_bin: IVec3,
+    material: u32,
+    instance: u32,
+    is_solid: bool,
+}
+
+fn key_of(mesh: &PatchMesh, scene: &Scene, element: &Element, patch_size: f32) -> Key {
+    let triangle = &scene.triangles[element.triangle.index()];
+    // An odd shift keeps walls at round coordinates off the cell borders.
+    let shifted = mesh.centroid(element) / patch_size + Vec3::new(0.137, 0.291, 0.413);
+    let normal = normal_of(mesh.corners(element));
+    let on_cube = normal / normal.abs().max_element().max(1e-6);
+    Key {
+        cell: shifted.floor().as_ivec3(),
+        normal_bin: (on_cube * NORMAL_CELLS).round().as_ivec3(),
+        material: triangle.material.0,
+        instance: triangle.instance.0,
+        is_solid: element.area > 0.0,
+    }
+}
+
+/// Unites elements of equal key that share an edge of the mesh.
+fn join_across_edges(mesh: &PatchMesh, keys: &[Key], clusters: &mut UnionFind) {
+    // Edges are named by position, so that creases and texture seams do not part a patch.
+    let mut places: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.light_vertices.len());
+    let place_of: Vec<u32> = mesh
+        .light_vertices
+        .iter()
+        .map(|vertex| {
+            let next = places.len() as u32;
+            *places.entry((vertex.position + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(next)
+        })
+        .collect();
+    let mut edges: Vec<([u32; 2], u32)> = Vec::with_capacity(3 * mesh.elements.len());
+    for (e, element) in mesh.elements.iter().enumerate() {
+        let corners = mesh.light_vertices_of(element).map(|l| place_of[l]);
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            edges.push(([a.min(b), a.max(b)], e as u32));
+        }
+    }
+    edges.sort_unstable();
+    for on_edge in edges.chunk_by(|a, b| a.0 == b.0) {
+        for (i, &(_, e)) in on_edge.iter().enumerate() {
+            for &(_, other) in &on_edge[i + 1..] {
+                if keys[e as usize] == keys[other as usize] {
+                    clusters.unite(e, other);
+                }
+            }
+        }
+    }
+}
+
+/// Gives every cluster a patch id, in the order of its first element.
+fn number_patches(mesh: &mut PatchMesh, clusters: &mut UnionFind) {
+    let mut patch_of_root: HashMap<u32, PatchId> = HashMap::new();
+    for e in 0..mesh.elements.len() {
+        let next = PatchId::new(patch_of_root.len());
+        mesh.elements[e].patch = *patch_of_root.entry(clusters.root(e as u32)).or_insert(next);
+    }
+    mesh.patches = vec![Patch { members: 0..0, area: 0.0 }; patch_of_root.len()];
+}
+
+/// Sorts the elements by patch and sums areas.
+fn list_members(mesh: &mut PatchMesh) {
+    mesh.members = (0..mesh.elements.len()).map(ElementId::new).collect();
+    mesh.members.sort_by_key(|e| mesh.elements[e.index()].patch);
+    let mut start = 0;
+    for members in mesh.members.chunk_by(|a, b| mesh.elements[a.index()].patch == mesh.elements[b.index()].patch) {
+        let patch = &mut mesh.patches[mesh.elements[members[0].index()].patch.index()];
+        patch.members = start..start + members.len();
+        patch.area = members.iter().map(|e| mesh.elements[e.index()].area).sum();
+        start += members.len();
+    }
+}
+
+/// Disjoint sets with path halving; the smaller root stays root, so numbering does not depend on the order of joins.
+struct UnionFind(Vec<u32>);
+
+impl UnionFind {
+    fn new(size: usize) -> Self {
+        Self((0..size as u32).collect())
+    }
+
+    fn root(&mut self, mut item: u32) -> u32 {
+        while self.0[item as usize] != item {
+            self.0[item as usize] = self.0[self.0[item as usize] as usize];
+            item = self.0[item as usize];
+        }
+        item
+    }
+
+    fn unite(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b) as usize] = a.min(b);
+    }
+}

@@ -1,0 +1,60 @@
+//! Mean reflectance, exitance and solid area of elements.
+
+use std::f32::consts::PI;
+
+use glam::{Vec2, Vec3, Vec4};
+use rayon::prelude::*;
+
+use super::{Element, PatchMesh};
+use crate::base::sampling::{r2, triangle_from_square};
+use crate::scene::{Material, Scene, Vertex, area_of};
+
+/// Points at which a textured element is looked up.
+const NUM_SAMPLES: u32 = 16;
+
+/// Fills in area, reflectance, exitance and group of every element.
+pub(super) fn evaluate(mesh: &mut PatchMesh, scene: &Scene) {
+    let PatchMesh { vertices, elements, .. } = mesh;
+    elements.par_iter_mut().for_each(|element| evaluate_element(element, vertices, scene));
+}
+
+fn evaluate_element(element: &mut Element, vertices: &[Vertex], scene: &Scene) {
+    let material = scene.material_of(element.triangle);
+    let corners = element.vertices.map(|v| &vertices[v as usize]);
+    let num_samples = if varies(material, corners) { NUM_SAMPLES } else { 1 };
+    let mut solid = 0.0;
+    let mut reflected = Vec3::ZERO;
+    let mut emitted = Vec3::ZERO;
+    for i in 0..num_samples {
+        // The first point alone is the centroid.
+        let weights =
+            if num_samples == 1 { Vec3::splat(1.0 / 3.0) } else { triangle_from_square(r2(i, element.triangle.0)) };
+        let (uv, colour) = interpolate(corners, weights);
+        let point = material.at(&scene.textures, uv, colour);
+        solid += point.opacity;
+        reflected += point.opacity * point.reflectance;
+        emitted += point.opacity * point.emission;
+    }
+    let area = area_of(corners.map(|v| v.position));
+    element.area = area * solid / num_samples as f32;
+    if solid > 0.0 {
+        element.reflectance = reflected / solid;
+        element.exitance = PI * emitted / solid;
+    }
+    element.group = if element.exitance.max_element() > 0.0 { material.group } else { None };
+}
+
+/// More than one look-up is needed for the mean over the element.
+fn varies(material: &Material, corners: [&Vertex; 3]) -> bool {
+    material.base_colour_texture.is_some()
+        || material.emissive_texture.is_some()
+        || material.metallic_roughness_texture.is_some()
+        || corners[0].colour != corners[1].colour
+        || corners[0].colour != corners[2].colour
+}
+
+fn interpolate(corners: [&Vertex; 3], weights: Vec3) -> ([Vec2; 2], Vec4) {
+    let [a, b, c] = corners;
+    let uv = [0, 1].map(|set| a.uv[set] * weights.x + b.uv[set] * weights.y + c.uv[set] * weights.z);
+    (uv, a.colour * weights.x + b.colour * weights.y + c.colour * weights.z)
+}

@@ -1,0 +1,218 @@
+//! Elements by longest-edge bisection.
+//!
+//! A triangle whose longest edge exceeds the element size is halved at that edge's midpoint, and so are its halves. In
+//! the end every edge that was too long has been split at its midpoint in both triangles that share it, so neighbours
+//! agree without asking each other, and angles stay above half the smallest input angle.
+//!
+//! Source: Rivara 1984, "Algorithms for refining triangular grids"; Baum, Mann, Smith, Winget 1991 (why T-vertices hurt).
+
+use std::collections::HashMap;
+
+use glam::{IVec3, Vec3};
+use thiserror::Error;
+
+use super::{Element, LightVertex, PatchMesh, Root};
+use crate::base::ids::{PatchId, TriangleId};
+use crate::scene::{Scene, Vertex};
+
+/// Mark of a leaf in a tree node.
+pub const LEAF: u32 = 0;
+
+/// Element ids and a mark must fit in an item of 32 bits.
+const MAX_ELEMENTS: usize = 1 << 28;
+
+/// The scene cannot be cut as asked.
+#[derive(Debug, Error)]
+pub enum MeshError {
+    /// Too fine.
+    #[error("an element size of {element_size} m gives more than {max} elements; choose a larger one", max = MAX_ELEMENTS)]
+    TooManyElements {
+        /// Metres.
+        element_size: f32,
+    },
+    /// Nothing to light.
+    #[error("the scene has no triangles")]
+    Empty,
+}
+
+/// Cuts all triangles of the scene; optics and patches of the elements are still blank.
+pub(super) fn subdivide(scene: &Scene, element_size: f32) -> Result<PatchMesh, MeshError> {
+    if scene.triangles.is_empty() {
+        return Err(MeshError::Empty);
+    }
+    let mut cutter = Cutter::new(scene, element_size);
+    for t in 0..scene.triangles.len() {
+        cutter.cut(scene, TriangleId::new(t));
+        if cutter.mesh.elements.len() > MAX_ELEMENTS {
+            return Err(MeshError::TooManyElements { element_size });
+        }
+    }
+    Ok(cutter.mesh)
+}
+
+struct Cutter {
+    mesh: PatchMesh,
+    max_edge_squared: f32,
+    /// Midpoint vertex of a pair of vertices.
+    midpoints: HashMap<[u32; 2], u32>,
+    /// Midpoint light vertex of a pair of light vertices.
+    light_midpoints: HashMap<[u32; 2], u32>,
+    /// Flipped copies of input vertices, for the backs of double-sided triangles.
+    flipped: HashMap<u32, u32>,
+    /// Welded light vertices by position bits and quantised normal.
+    welded: HashMap<([u32; 3], IVec3), u32>,
+}
+
+impl Cutter {
+    fn new(scene: &Scene, element_size: f32) -> Self {
+        let mut cutter = Self {
+            mesh: PatchMesh::default(),
+            max_edge_squared: element_size * element_size,
+            midpoints: HashMap::new(),
+            light_midpoints: HashMap::new(),
+            flipped: HashMap::new(),
+            welded: HashMap::new(),
+        };
+        for vertex in &scene.vertices {
+            cutter.add_welded(*vertex);
+        }
+        cutter
+    }
+
+    fn cut(&mut self, scene: &Scene, triangle: TriangleId) {
+        let corners = scene.triangles[triangle.index()].vertices;
+        let has_backs = scene.material_of(triangle).double_sided;
+        let first_element = self.mesh.elements.len();
+        let root = self.mesh.tree.len() as u32;
+        self.mesh.tree.push(0);
+        self.bisect(root as usize, corners, triangle);
+        let fronts = self.mesh.elements.len() - first_element;
+        if has_backs {
+            self.add_backs(first_element..first_element + fronts, corners);
+        }
+        self.mesh.roots.push(Root {
+            node: root,
+            first_element: first_element as u32,
+            num_elements: fronts as u32,
+            has_backs,
+        });
+    }
+
+    /// Fills tree node `node` with the bisection of a triangle.
+    fn bisect(&mut self, node: usize, corners: [u32; 3], triangle: TriangleId) {
+        let (apex, length_squared) = self.longest_edge(corners);
+        if length_squared <= self.max_edge_squared {
+            let element = self.mesh.elements.len() as u32;
+            self.mesh.tree[node] = element << 2 | LEAF;
+            self.mesh.elements.push(blank_element(corners, triangle, false));
+            return;
+        }
+        let [at_apex, first, second] = [0, 1, 2].map(|k| corners[(apex + k) % 3]);
+        let midpoint = self.midpoint(first, second);
+        let child = self.mesh.tree.len();
+        self.mesh.tree[node] = (child as u32) << 2 | (apex as u32 + 1);
+        self.mesh.tree.extend([0, 0]);
+        self.bisect(child, [at_apex, first, midpoint], triangle);
+        self.bisect(child + 1, [at_apex, midpoint, second], triangle);
+    }
+
+    /// The corner opposite the longest edge, and that edge's squared length.
+    fn longest_edge(&self, corners: [u32; 3]) -> (usize, f32) {
+        let at = corners.map(|v| self.mesh.vertices[v as usize].position);
+        let squared = [0, 1, 2].map(|k| at[(k + 1) % 3].distance_squared(at[(k + 2) % 3]));
+        let apex = if squared[0] >= squared[1] && squared[0] >= squared[2] {
+            0
+        } else if squared[1] >= squared[2] {
+            1
+        } else {
+            2
+        };
+        (apex, squared[apex])
+    }
+
+    /// Mirrors front elements on to the back of a double-sided triangle, over flipped copies of their vertices.
+    fn add_backs(&mut self, fronts: std::ops::Range<usize>, corners: [u32; 3]) {
+        for corner in corners {
+            self.flipped_copy(corner);
+        }
+        for front in fronts {
+            let element = self.mesh.elements[front];
+            let [a, b, c] = element.vertices.map(|v| self.flipped_copy(v));
+            self.mesh.elements.push(blank_element([a, c, b], element.triangle, true));
+        }
+    }
+
+    fn flipped_copy(&mut self, vertex: u32) -> u32 {
+        if let Some(&copy) = self.flipped.get(&vertex) {
+            return copy;
+        }
+        let front = self.mesh.vertices[vertex as usize];
+        let copy = self.add_welded(Vertex { normal: -front.normal, ..front });
+        self.flipped.insert(vertex, copy);
+        copy
+    }
+
+    fn midpoint(&mut self, a: u32, b: u32) -> u32 {
+        let pair = [a.min(b), a.max(b)];
+        if let Some(&midpoint) = self.midpoints.get(&pair) {
+            return midpoint;
+        }
+        let [low, high] = pair.map(|v| self.mesh.vertices[v as usize]);
+        let light_pair = pair.map(|v| self.mesh.light_vertex_of[v as usize]);
+        let light_pair = [light_pair[0].min(light_pair[1]), light_pair[0].max(light_pair[1])];
+        let light_vertex = match self.light_midpoints.get(&light_pair) {
+            Some(&light_vertex) => light_vertex,
+            None => self.add_light_midpoint(light_pair),
+        };
+        // Position and normal come from the light vertices, so that the two sides of a texture seam stay one.
+        let LightVertex { position, normal } = self.mesh.light_vertices[light_vertex as usize];
+        let uv = [0, 1].map(|set| (low.uv[set] + high.uv[set]) * 0.5);
+        let vertex = Vertex { position, normal, uv, colour: (low.colour + high.colour) * 0.5 };
+        let midpoint = self.add_vertex(vertex, light_vertex);
+        self.midpoints.insert(pair, midpoint);
+        midpoint
+    }
+
+    fn add_light_midpoint(&mut self, pair: [u32; 2]) -> u32 {
+        let [low, high] = pair.map(|l| self.mesh.light_vertices[l as usize]);
+        let sum = low.normal + high.normal;
+        let normal = sum.try_normalize().unwrap_or(low.normal);
+        let position = (low.position + high.position) * 0.5;
+        let light_vertex = self.mesh.light_vertices.len() as u32;
+        self.mesh.light_vertices.push(LightVertex { position, normal });
+        self.light_midpoints.insert(pair, light_vertex);
+        light_vertex
+    }
+
+    /// Adds a vertex of the input, welding its light with vertices of the same place and shading normal.
+    fn add_welded(&mut self, vertex: Vertex) -> u32 {
+        // Adding zero makes -0 and +0 one place.
+        let place = (vertex.position + Vec3::ZERO).to_array().map(f32::to_bits);
+        let key = (place, (vertex.normal * 1000.0).round().as_ivec3());
+        let next = self.mesh.light_vertices.len() as u32;
+        let light_vertex = *self.welded.entry(key).or_insert(next);
+        if light_vertex == next {
+            self.mesh.light_vertices.push(LightVertex { position: vertex.position, normal: vertex.normal });
+        }
+        self.add_vertex(vertex, light_vertex)
+    }
+
+    fn add_vertex(&mut self, vertex: Vertex, light_vertex: u32) -> u32 {
+        self.mesh.vertices.push(vertex);
+        self.mesh.light_vertex_of.push(light_vertex);
+        self.mesh.vertices.len() as u32 - 1
+    }
+}
+
+fn blank_element(vertices: [u32; 3], triangle: TriangleId, is_back: bool) -> Element {
+    Element {
+        vertices,
+        triangle,
+        is_back,
+        patch: PatchId(0),
+        area: 0.0,
+        reflectance: Vec3::ZERO,
+        exitance: Vec3::ZERO,
+        group: None,
+    }
+}

@@ -1,0 +1,17 @@
+//! Floor 4: the light itself.
+//!
+//! The route through this floor: [`sites`] says where irradiance is wanted, [`direct`] brings what comes straight from the
+//! lights, [`progressive`] shoots it on from patch to patch until little is left unshot, [`gathering`] polishes the answer
+//! with the rows that were kept, [`gather`] collects the indirect light at every site, and [`reconstruct`] puts it on the mesh that is drawn.
+
+pub mod direct;
+mod emitter;
+pub mod field;
+pub mod gather;
+pub mod gathering;
+pub mod progressive;
+pub mod reconstruct;
+pub mod rows;
+pub mod sites;
+
+pub use field::Field;

@@ -1,0 +1,153 @@
+//! From light at light vertices or elements to light on the mesh that is drawn.
+
+use glam::Vec3;
+
+use super::field::Field;
+use crate::baked::{BakedScene, GroupLight, VertexLight};
+use crate::patch::PatchMesh;
+use crate::scene::{Instance, Scene, Triangle};
+
+/// Passes of filling in: a site is hidden at most this many elements deep.
+const MAX_FILL_PASSES: usize = 16;
+
+/// The elements of `mesh` as a scene, still dark.
+#[must_use]
+pub fn dark_scene(scene: &Scene, mesh: &PatchMesh) -> BakedScene {
+    let triangles: Vec<Triangle> = mesh
+        .elements
+        .iter()
+        .map(|element| Triangle {
+            vertices: element.vertices,
+            is_back_side: element.is_back,
+            ..scene.triangles[element.triangle.index()]
+        })
+        .collect();
+    // Elements follow their input triangles, so an instance's elements lie side by side too.
+    let first_element = |t: usize| mesh.roots.get(t).map_or(triangles.len(), |root| root.first_element as usize);
+    let instances = scene
+        .instances
+        .iter()
+        .map(|instance| Instance {
+            name: instance.name.clone(),
+            triangles: first_element(instance.triangles.start)..first_element(instance.triangles.end),
+        })
+        .collect();
+    let light = VertexLight::dark(scene.light_groups.len(), mesh.vertices.len());
+    let scene = Scene {
+        name: scene.name.clone(),
+        vertices: mesh.vertices.clone(),
+        triangles,
+        instances,
+        materials: scene.materials.clone(),
+        textures: scene.textures.clone(),
+        lights: scene.lights.clone(),
+        cameras: scene.cameras.clone(),
+        light_groups: scene.light_groups.clone(),
+        irradiance: Vec::new(),
+        notes: scene.notes.clone(),
+        dropped_triangles: scene.dropped_triangles,
+    };
+    BakedScene { scene, light }
+}
+
+/// Light at light vertices [l][g] spread to the vertices [v] of the drawn mesh.
+#[must_use]
+pub fn vertex_light(mesh: &PatchMesh, direct: &Field, indirect: &Field) -> VertexLight {
+    let of_group = |field: &Field, g: usize| mesh.light_vertex_of.iter().map(|&l| field.at(l as usize)[g]).collect();
+    let groups = (0..direct.num_groups())
+        .map(|g| GroupLight { direct: of_group(direct, g), indirect: of_group(indirect, g) })
+        .collect();
+    VertexLight { groups }
+}
+
+/// Mean over the elements round each light vertex, weighted by area.
+#[must_use]
+pub fn average(mesh: &PatchMesh, on_elements: &Field) -> Field {
+    let num_groups = on_elements.num_groups();
+    let mut sums = Field::zero(mesh.light_vertices.len(), num_groups);
+    let mut weights = vec![0.0f32; mesh.light_vertices.len()];
+    for (e, element) in mesh.elements.iter().enumerate() {
+        for l in mesh.light_vertices_of(element) {
+            weights[l] += element.area;
+            for (sum, &value) in sums.at_mut(l).iter_mut().zip(on_elements.at(e)) {
+                *sum += value * element.area;
+            }
+        }
+    }
+    for (l, weight) in weights.iter().enumerate() {
+        for sum in sums.at_mut(l) {
+            *sum /= weight.max(f32::MIN_POSITIVE);
+        }
+    }
+    sums
+}
+
+/// Mean over the three corners of each element.
+#[must_use]
+pub fn on_elements(mesh: &PatchMesh, at_light_vertices: &Field) -> Field {
+    let mut field = Field::zero(mesh.elements.len(), at_light_vertices.num_groups());
+    for (e, element) in mesh.elements.iter().enumerate() {
+        for l in mesh.light_vertices_of(element) {
+            for (sum, &value) in field.at_mut(e).iter_mut().zip(at_light_vertices.at(l)) {
+                *sum += value / 3.0;
+            }
+        }
+    }
+    field
+}
+
+/// Gives light vertices inside or behind something the mean of their valid neighbours along the mesh, ring by ring.
+pub fn fill_hidden(mesh: &PatchMesh, is_valid: &[bool], fields: [&mut Field; 2]) {
+    let [direct, indirect] = fields;
+    let mut is_known = is_valid.to_vec();
+    is_known.resize(mesh.light_vertices.len(), false);
+    for _ in 0..MAX_FILL_PASSES {
+        let reached = neighbour_sums(mesh, &is_known, direct, indirect);
+        if reached.is_empty() {
+            break;
+        }
+        for (l, sums) in reached {
+            is_known[l] = true;
+            let num_groups = direct.num_groups();
+            for g in 0..num_groups {
+                direct.at_mut(l)[g] = sums.values[g] / sums.count;
+                indirect.at_mut(l)[g] = sums.values[num_groups + g] / sums.count;
+            }
+        }
+    }
+}
+
+/// Sum of known neighbours: direct of all groups, then indirect of all groups.
+struct NeighbourSums {
+    values: Vec<Vec3>,
+    count: f32,
+}
+
+fn neighbour_sums(
+    mesh: &PatchMesh,
+    is_known: &[bool],
+    direct: &Field,
+    indirect: &Field,
+) -> std::collections::BTreeMap<usize, NeighbourSums> {
+    let num_groups = direct.num_groups();
+    let mut reached = std::collections::BTreeMap::new();
+    for element in &mesh.elements {
+        let corners = mesh.light_vertices_of(element);
+        for (k, &l) in corners.iter().enumerate() {
+            if is_known[l] {
+                continue;
+            }
+            for neighbour in [corners[(k + 1) % 3], corners[(k + 2) % 3]] {
+                if is_known[neighbour] {
+                    let sums = reached
+                        .entry(l)
+                        .or_insert_with(|| NeighbourSums { values: vec![Vec3::ZERO; 2 * num_groups], count: 0.0 });
+                    let known = direct.at(neighbour).iter().chain(indirect.at(neighbour));
+                    sums.values.iter_mut().zip(known).for_each(|(sum, &value)| *sum += value);
+                    sums.count += 1.0;
+                }
+            }
+        }
+    }
+    reached
+}

@@ -1,0 +1,95 @@
+//! Where irradiance is looked up: the light vertices, each moved a hair off its surface.
+
+use glam::Vec3;
+
+use crate::base::ids::ElementId;
+use crate::form_factor::Viewpoint;
+use crate::patch::{Patch, PatchMesh};
+use crate::scene::{Scene, normal_of};
+
+/// Height of a viewpoint above its surface, as a share of the scene's extent: far above rounding, far below detail.
+const HEIGHT: f32 = 2e-5;
+
+/// How far a site is moved from its vertex towards the middle of the elements round it. A vertex in a corner of the room
+/// lies exactly in the other wall; a site must not.
+const INSET: f32 = 0.05;
+
+/// Makes viewpoints that stand off their surfaces.
+#[derive(Clone, Copy, Debug)]
+pub struct Sites {
+    height: f32,
+}
+
+impl Sites {
+    /// Sites for a scene of its size.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let (low, high) = scene.bounds();
+        Self { height: HEIGHT * (high - low).max_element() }
+    }
+
+    /// One viewpoint a light vertex [l], with its shading normal.
+    #[must_use]
+    pub fn of_light_vertices(&self, mesh: &PatchMesh) -> Vec<Viewpoint> {
+        let mut sum_of_centroids = vec![(Vec3::ZERO, 0.0); mesh.light_vertices.len()];
+        for element in &mesh.elements {
+            let centroid = mesh.centroid(element);
+            for l in mesh.light_vertices_of(element) {
+                sum_of_centroids[l].0 += centroid;
+                sum_of_centroids[l].1 += 1.0;
+            }
+        }
+        let site = |(l, (sum, count)): (usize, &(Vec3, f32))| {
+            let vertex = &mesh.light_vertices[l];
+            let middle = if *count > 0.0 { sum / *count } else { vertex.position };
+            // Only sideways: on a curved surface the middle lies below the tangent plane.
+            let sideways = (middle - vertex.position).reject_from(vertex.normal);
+            self.viewpoint(vertex.position + INSET * sideways, vertex.normal, l as u32)
+        };
+        sum_of_centroids.iter().enumerate().map(site).collect()
+    }
+
+    /// `num_points` viewpoints spread over a patch by area.
+    #[must_use]
+    pub fn of_patch(&self, mesh: &PatchMesh, patch: &Patch, num_points: usize) -> Vec<Viewpoint> {
+        let members = mesh.members_of(patch);
+        (0..num_points)
+            .map(|i| {
+                let element = if num_points == 1 {
+                    most_central(mesh, members)
+                } else {
+                    at_area(mesh, members, patch.area * (i as f32 + 0.5) / num_points as f32)
+                };
+                let corners = mesh.corners(&mesh.elements[element.index()]);
+                let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
+                self.viewpoint(centroid, normal_of(corners), element.0)
+            })
+            .collect()
+    }
+
+    fn viewpoint(&self, position: Vec3, normal: Vec3, seed: u32) -> Viewpoint {
+        Viewpoint { position: position + normal * self.height, normal, seed }
+    }
+}
+
+/// The element nearest to the mean centroid.
+fn most_central(mesh: &PatchMesh, members: &[ElementId]) -> ElementId {
+    let centroid = |e: &ElementId| mesh.centroid(&mesh.elements[e.index()]);
+    let mean = members.iter().map(centroid).sum::<Vec3>() / members.len() as f32;
+    *members
+        .iter()
+        .min_by(|a, b| centroid(a).distance_squared(mean).total_cmp(&centroid(b).distance_squared(mean)))
+        .expect("a patch has members")
+}
+
+/// The element in which the running sum of areas passes `area`.
+fn at_area(mesh: &PatchMesh, members: &[ElementId], area: f32) -> ElementId {
+    let mut sum = 0.0;
+    for &element in members {
+        sum += mesh.elements[element.index()].area;
+        if sum >= area {
+            return element;
+        }
+    }
+    *members.last().expect("a patch has members")
+}

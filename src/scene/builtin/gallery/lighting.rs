@@ -1,0 +1,81 @@
+//! Daylight, sun, lamps and the spot.
+
+use glam::{Quat, Vec2, Vec3};
+
+use super::super::builder::Builder;
+use super::super::round::{lathe, sphere};
+use super::super::shape::{Shape, Side, cuboid, polygon};
+use super::finishes::Finishes;
+use super::rooms::{RED_ROOM_HEIGHT, WINDOW_WALL_Z, WINDOWS_X, WINDOWS_Y};
+use crate::scene::LightKind;
+
+/// Direction in which sunlight travels, before it is made a unit vector: 38 degrees down, a little to the east.
+const SUN: Vec3 = Vec3::new(0.30, -0.80, -0.975);
+/// A low sun behind haze, lux on a surface that faces it.
+const SUN_LUX: Vec3 = Vec3::new(4600.0, 3950.0, 3100.0);
+/// Warm white of the lamps with luminance one.
+const WARM: Vec3 = Vec3::new(1.36, 0.95, 0.52);
+/// Foot of each pendant's cord.
+const PENDANTS: [[f32; 2]; 2] = [[-4.6, 3.0], [-1.8, 1.5]];
+const GLOBE_RADIUS: f32 = 0.09;
+const GLOBE_HEIGHT: f32 = 2.2;
+
+/// The sun, and the shafts through which it and the sky shine in.
+///
+/// A shaft runs along the sun's rays, so it casts no shadow of its own, and from the room one sees its glowing lower
+/// side instead of the void.
+pub(super) fn windows(builder: &mut Builder, finishes: &Finishes) {
+    let [sill, head] = WINDOWS_Y;
+    // Up the rays and two metres out; widened, so that no ray grazes a side.
+    let out = -SUN * (2.0 / -SUN.z);
+    for ([west, east], number) in WINDOWS_X.into_iter().zip(1..) {
+        let inner =
+            [(west, sill), (east, sill), (east, head), (west, head)].map(|(x, y)| Vec3::new(x, y, WINDOW_WALL_Z));
+        let middle = inner.iter().sum::<Vec3>() / 4.0;
+        let outer = inner.map(|corner| corner + out + (corner - middle) * 0.06);
+        let side = |i: usize| polygon(&[inner[i], outer[i], outer[(i + 1) % 4], inner[(i + 1) % 4]]);
+        builder.place(&format!("sky in window {number}"), finishes.sky, side(0));
+        builder.place(&format!("shaft of window {number}"), finishes.white, (1..4).map(side).collect());
+    }
+    builder.light("sun", LightKind::Directional { direction: SUN.normalize() }, SUN_LUX, "sun");
+}
+
+/// Two pendant lamps: an opal globe under a shade, and the light it throws down as a point below it.
+pub(super) fn lamps(builder: &mut Builder, finishes: &Finishes) {
+    for ([x, z], number) in PENDANTS.into_iter().zip(1..) {
+        let centre = Vec3::new(x, GLOBE_HEIGHT, z);
+        builder.place(&format!("globe {number}"), finishes.globe, sphere(GLOBE_RADIUS, 12, 6).moved(centre));
+        builder.place(&format!("shade {number}"), finishes.shade, shade().moved(centre));
+        let cord = Vec3::new(0.006, 0.0, 0.006);
+        let top = Vec3::new(x, RED_ROOM_HEIGHT, z);
+        let cord = cuboid(centre + Vec3::Y * 0.20 - cord, top + cord, &[Side::Above, Side::Below]);
+        builder.place(&format!("cord {number}"), finishes.black, cord);
+        let position = centre - Vec3::Y * (GLOBE_RADIUS + 0.05);
+        builder.light(&format!("lamp {number}"), LightKind::Point { position }, WARM * 40.0, "lamps");
+    }
+}
+
+/// A thin bell round a globe at the origin, closed: outside up, inside down.
+fn shade() -> Shape {
+    let outside = [(0.30, -0.02), (0.16, 0.14), (0.0, 0.20)].map(Vec2::from);
+    let inside = [(0.0, 0.19), (0.155, 0.13), (0.29, -0.02), (0.30, -0.02)].map(Vec2::from);
+    lathe(&outside, 16).join(lathe(&inside, 16))
+}
+
+/// The spot that picks out the prism, in its housing under the ceiling.
+pub(super) fn spot(builder: &mut Builder, finishes: &Finishes) {
+    let position = Vec3::new(-1.7, 2.85, 3.9);
+    let direction = (Vec3::new(-3.1, 1.45, 4.8) - position).normalize();
+    let kind = LightKind::Spot { position, direction, inner_angle: 0.20, outer_angle: 0.34 };
+    builder.light("spot", kind, WARM * 800.0, "spot");
+    // The light sits in the open mouth of the tube; the tube's axis is -Y before it is turned.
+    let tube = [(0.045, 0.0), (0.06, 0.0), (0.06, 0.16), (0.0, 0.16)].map(Vec2::from);
+    let bore = [(0.0, 0.02), (0.045, 0.02), (0.045, 0.0)].map(Vec2::from);
+    let housing = lathe(&tube, 12).join(lathe(&bore, 12).inside_out());
+    let housing = housing.turned(Quat::from_rotation_arc(Vec3::NEG_Y, direction)).moved(position);
+    builder.place("spot housing", finishes.black, housing);
+    let top = position - direction * 0.10;
+    let stem =
+        cuboid(top - Vec3::splat(0.008), top.with_y(RED_ROOM_HEIGHT) + Vec3::new(0.008, 0.0, 0.008), &[Side::Above]);
+    builder.place("spot stem", finishes.black, stem);
+}

@@ -1,0 +1,161 @@
+//! Small pieces of mesh: plain data that is made, moved and joined before it becomes part of a scene.
+
+use glam::{Quat, Vec2, Vec3, Vec4};
+
+use crate::scene::Vertex;
+
+/// A piece of mesh with outward, counter-clockwise faces.
+#[derive(Clone, Default)]
+pub(super) struct Shape {
+    pub(super) vertices: Vec<Vertex>,
+    pub(super) triangles: Vec<[u32; 3]>,
+}
+
+/// The sides of an axis-parallel box, in the order of [`Side::ALL`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Side {
+    /// Towards -X.
+    West,
+    /// Towards +X.
+    East,
+    /// Towards -Y.
+    Below,
+    /// Towards +Y.
+    Above,
+    /// Towards -Z.
+    North,
+    /// Towards +Z.
+    South,
+}
+
+impl Side {
+    /// Every side.
+    pub(super) const ALL: [Side; 6] = [Side::West, Side::East, Side::Below, Side::Above, Side::North, Side::South];
+
+    /// Axis of its normal and whether the normal points along it.
+    pub(super) fn axis(self) -> (usize, bool) {
+        (self as usize / 2, self as usize % 2 == 1)
+    }
+}
+
+/// A vertex without texture coordinates.
+pub(super) fn vertex(position: Vec3, normal: Vec3) -> Vertex {
+    Vertex { position, normal, uv: [Vec2::ZERO; 2], colour: Vec4::ONE }
+}
+
+/// A flat convex polygon, its corners counter-clockwise seen from the front.
+pub(super) fn polygon(corners: &[Vec3]) -> Shape {
+    // Newell's normal: the same for every triangle of the polygon.
+    let around = (0..corners.len()).map(|i| corners[i].cross(corners[(i + 1) % corners.len()]));
+    let normal = around.sum::<Vec3>().normalize();
+    let vertices = corners.iter().map(|&corner| vertex(corner, normal)).collect();
+    let triangles = (1..corners.len() as u32 - 1).map(|i| [0, i, i + 1]).collect();
+    Shape { vertices, triangles }
+}
+
+/// Corners of one side of a box, counter-clockwise seen from outside.
+pub(super) fn side_corners(low: Vec3, high: Vec3, side: Side) -> [Vec3; 4] {
+    let (axis, is_positive) = side.axis();
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    let corner = |at_u: Vec3, at_v: Vec3| {
+        let mut corner = if is_positive { high } else { low };
+        corner[u] = at_u[u];
+        corner[v] = at_v[v];
+        corner
+    };
+    let corners = [corner(low, low), corner(high, low), corner(high, high), corner(low, high)];
+    if is_positive { corners } else { [corners[0], corners[3], corners[2], corners[1]] }
+}
+
+/// An axis-parallel box without the sides in `open`.
+pub(super) fn cuboid(low: Vec3, high: Vec3, open: &[Side]) -> Shape {
+    let sides = Side::ALL.into_iter().filter(|side| !open.contains(side));
+    sides.map(|side| polygon(&side_corners(low, high, side))).collect()
+}
+
+impl FromIterator<Shape> for Shape {
+    fn from_iter<I: IntoIterator<Item = Shape>>(shapes: I) -> Self {
+        shapes.into_iter().fold(Shape::default(), Shape::join)
+    }
+}
+
+impl Shape {
+    /// Both shapes in one.
+    pub(super) fn join(mut self, other: Shape) -> Self {
+        let first = self.vertices.len() as u32;
+        self.vertices.extend(other.vertices);
+        self.triangles.extend(other.triangles.into_iter().map(|corners| corners.map(|v| first + v)));
+        self
+    }
+
+    /// Shifted by `offset` metres.
+    pub(super) fn moved(mut self, offset: Vec3) -> Self {
+        self.vertices.iter_mut().for_each(|vertex| vertex.position += offset);
+        self
+    }
+
+    /// Turned about the origin.
+    pub(super) fn turned(mut self, rotation: Quat) -> Self {
+        for vertex in &mut self.vertices {
+            vertex.position = rotation * vertex.position;
+            vertex.normal = (rotation * vertex.normal).normalize();
+        }
+        self
+    }
+
+    /// Turned counter-clockwise about +Y, seen from above, in steps of 90 degrees; exact.
+    pub(super) fn quarter_turned(mut self, times: usize) -> Self {
+        for _ in 0..times {
+            for vertex in &mut self.vertices {
+                let quarter = |v: Vec3| Vec3::new(v.z, v.y, 0.0 - v.x);
+                vertex.position = quarter(vertex.position);
+                vertex.normal = quarter(vertex.normal);
+            }
+        }
+        self
+    }
+
+    /// Seen from the other side.
+    pub(super) fn inside_out(mut self) -> Self {
+        self.vertices.iter_mut().for_each(|vertex| vertex.normal = -vertex.normal);
+        self.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
+        self
+    }
+
+    /// With texture coordinates by position.
+    pub(super) fn with_uv(mut self, uv: impl Fn(Vec3) -> Vec2) -> Self {
+        self.vertices.iter_mut().for_each(|vertex| vertex.uv[0] = uv(vertex.position));
+        self
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::normal_of;
+
+    #[test]
+    fn every_side_of_a_box_faces_outward() {
+        let (low, high) = (Vec3::new(-1.0, 2.0, 3.0), Vec3::new(1.0, 3.0, 5.0));
+        for side in Side::ALL {
+            let (axis, is_positive) = side.axis();
+            let shape = polygon(&side_corners(low, high, side));
+            let mut outward = Vec3::ZERO;
+            outward[axis] = if is_positive { 1.0 } else { -1.0 };
+            for triangle in &shape.triangles {
+                let normal = normal_of(triangle.map(|v| shape.vertices[v as usize].position));
+                assert_eq!(normal, outward, "{side:?}");
+            }
+            assert_eq!(shape.vertices[0].normal, outward);
+        }
+    }
+
+    #[test]
+    fn four_quarter_turns_change_nothing() {
+        let corners = [Vec3::ZERO, Vec3::new(0.1, 0.0, 0.0), Vec3::new(0.1, 0.7, 0.3)];
+        let turned = polygon(&corners).quarter_turned(4);
+        assert_eq!(turned.vertices.iter().map(|v| v.position).collect::<Vec<_>>(), corners);
+        let east = polygon(&corners).moved(Vec3::Z).quarter_turned(1);
+        assert_eq!(east.vertices[0].position, Vec3::X, "south becomes east");
+    }
+}

@@ -1,0 +1,165 @@
+//! A mesh primitive in its own space: vertices and plain triangles, whatever the file's topology.
+
+use std::collections::BTreeMap;
+
+use glam::{Vec2, Vec3, Vec4};
+use gltf::json::accessor::Accessor;
+use gltf::json::mesh::{Mode, Primitive, Semantic};
+use gltf::json::validation::Checked;
+use gltf::json::{Extras, Index};
+
+use super::accessor::Reader;
+use super::document::Document;
+use super::error::Cause;
+use crate::scene::{Vertex, VertexAttribute};
+
+/// What the attribute names of stored light begin with.
+const IRRADIANCE: &str = "IRRADIANCE_";
+
+/// A primitive, ready to be placed.
+pub(super) struct Geometry {
+    /// Vertices that triangles use, in file order; the normal is zero where the file has none.
+    pub vertices: Vec<Vertex>,
+    /// Corners, counter-clockwise from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// The file has normals.
+    pub has_normals: bool,
+    /// Stored light at `vertices`.
+    pub irradiance: Vec<VertexAttribute>,
+    /// Material of the file, or the default one.
+    pub material: Option<usize>,
+    /// It is the back of a double-sided surface, written out by a bake.
+    pub is_back_side: bool,
+}
+
+/// Attributes of a primitive, read row by row.
+struct Attributes<'a> {
+    document: &'a Document<'a>,
+    map: &'a BTreeMap<Checked<Semantic>, Index<Accessor>>,
+    name: &'a str,
+}
+
+impl<'a> Attributes<'a> {
+    fn reader(&self, semantic: Semantic) -> Result<Option<Reader<'a>>, Cause> {
+        self.map.get(&Checked::Valid(semantic)).map(|&index| self.open(index)).transpose()
+    }
+
+    fn open(&self, index: Index<Accessor>) -> Result<Reader<'a>, Cause> {
+        Reader::new(self.document, index, || self.name.to_owned())
+    }
+
+    fn vectors<const N: usize>(&self, semantic: Semantic, rows: &[u32]) -> Result<Option<Vec<[f32; N]>>, Cause> {
+        self.reader(semantic)?.map(|reader| reader.vectors(rows)).transpose()
+    }
+
+    /// COLOR_0 as RGBA; integers are fractions of their largest value.
+    fn colours(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
+        let Some(reader) = self.reader(Semantic::Colors(0))? else { return Ok(None) };
+        let reader = if reader.is_integer() { reader.as_fractions() } else { reader };
+        let colours = if reader.width() == 3 {
+            reader.vectors(rows)?.into_iter().map(|rgb| Vec3::from(rgb).extend(1.0)).collect()
+        } else {
+            reader.vectors(rows)?.into_iter().map(Vec4::from).collect()
+        };
+        Ok(Some(colours))
+    }
+
+    fn irradiance(&self, rows: &[u32]) -> Result<Vec<VertexAttribute>, Cause> {
+        let stored = self.map.iter().filter_map(|(semantic, &index)| match semantic {
+            Checked::Valid(Semantic::Extras(name)) if name.starts_with(IRRADIANCE) => Some((name, index)),
+            _ => None,
+        });
+        stored
+            .map(|(name, index)| {
+                let values = self.open(index)?.vectors(rows)?.into_iter().map(Vec3::from).collect();
+                Ok(VertexAttribute { name: format!("_{name}"), values })
+            })
+            .collect()
+    }
+
+    fn vertices(&self, rows: &[u32]) -> Result<(Vec<Vertex>, bool), Cause> {
+        let positions = self.vectors::<3>(Semantic::Positions, rows)?.unwrap_or_default();
+        let normals = self.vectors::<3>(Semantic::Normals, rows)?;
+        let uv = [self.vectors::<2>(Semantic::TexCoords(0), rows)?, self.vectors::<2>(Semantic::TexCoords(1), rows)?];
+        let colours = self.colours(rows)?;
+        let uv_at = |set: usize, v: usize| uv[set].as_ref().map_or(Vec2::ZERO, |uv| Vec2::from(uv[v]));
+        let vertex = |(v, position): (usize, [f32; 3])| Vertex {
+            position: Vec3::from(position),
+            normal: normals.as_ref().map_or(Vec3::ZERO, |normals| Vec3::from(normals[v])),
+            uv: [uv_at(0, v), uv_at(1, v)],
+            colour: colours.as_ref().map_or(Vec4::ONE, |colours| colours[v]),
+        };
+        Ok((positions.into_iter().enumerate().map(vertex).collect(), normals.is_some()))
+    }
+}
+
+impl Geometry {
+    /// Reads a primitive; none where it has no triangles to show (points, lines, no positions).
+    pub fn read(document: &Document<'_>, primitive: &Primitive, name: &str) -> Result<Option<Self>, Cause> {
+        let attributes = Attributes { document, map: &primitive.attributes, name };
+        let Some(positions) = attributes.reader(Semantic::Positions)? else { return Ok(None) };
+        let Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) = primitive.mode else {
+            return Ok(None);
+        };
+        if let Some(material) = primitive.material {
+            document.find(material, "material", || name.to_owned())?;
+        }
+        let order = match primitive.indices {
+            Some(index) => attributes.open(index)?.indices()?,
+            None => (0..positions.count() as u32).collect(),
+        };
+        let mut triangles = triangulate(mode, &order);
+        let rows = keep_used(&mut triangles, positions.count()).map_err(|row| dangling_vertex(primitive, row))?;
+        let (vertices, has_normals) = attributes.vertices(&rows)?;
+        Ok(Some(Self {
+            vertices,
+            triangles,
+            has_normals,
+            irradiance: attributes.irradiance(&rows)?,
+            material: primitive.material.map(|material| material.value()),
+            is_back_side: says_back_side(&primitive.extras),
+        }))
+    }
+}
+
+fn dangling_vertex(primitive: &Primitive, row: u32) -> Cause {
+    let accessor = primitive.indices.map_or(0, |index| index.value());
+    Cause::accessor(accessor, format!("index {row} points at no vertex"))
+}
+
+/// Corners of the triangles that `mode` makes of vertices in this order (glTF 2.0, section 3.7.2.1).
+fn triangulate(mode: Mode, order: &[u32]) -> Vec<[u32; 3]> {
+    match mode {
+        Mode::TriangleStrip => {
+            let swap_odd = |(i, w): (usize, &[u32])| if i % 2 == 0 { [w[0], w[1], w[2]] } else { [w[0], w[2], w[1]] };
+            order.windows(3).enumerate().map(swap_odd).collect()
+        }
+        Mode::TriangleFan => match order.split_first() {
+            Some((&hub, rim)) => rim.windows(2).map(|w| [w[0], w[1], hub]).collect(),
+            None => Vec::new(),
+        },
+        _ => order.chunks_exact(3).map(|w| [w[0], w[1], w[2]]).collect(),
+    }
+}
+
+/// Renumbers corners so that only used vertices count, and returns those in file order; fails with an index too high.
+fn keep_used(triangles: &mut [[u32; 3]], num_vertices: usize) -> Result<Vec<u32>, u32> {
+    let mut new_index = vec![u32::MAX; num_vertices];
+    for &corner in triangles.iter().flatten() {
+        *new_index.get_mut(corner as usize).ok_or(corner)? = 0;
+    }
+    let mut rows = Vec::new();
+    for (row, new) in new_index.iter_mut().enumerate().filter(|(_, new)| **new == 0) {
+        *new = rows.len() as u32;
+        rows.push(row as u32);
+    }
+    for corner in triangles.iter_mut().flatten() {
+        *corner = new_index[*corner as usize];
+    }
+    Ok(rows)
+}
+
+fn says_back_side(extras: &Extras) -> bool {
+    let value = extras.as_ref().and_then(|raw| serde_json::from_str::<serde_json::Value>(raw.get()).ok());
+    value.is_some_and(|value| value["back_side"] == true)
+}

@@ -1,0 +1,142 @@
+//! A primitive into the world: transformed, wound counter-clockwise, with unit normals everywhere.
+
+use glam::{DAffine3, DMat3, Vec3};
+
+use super::error::Cause;
+use super::geometry::Geometry;
+use crate::base::ids::{InstanceId, MaterialId};
+use crate::scene::{Instance, Scene, Triangle, Vertex, VertexAttribute, edge_cross, normal_of};
+
+/// Most vertices or triangles of a scene: about 6 GB.
+const MAX_COUNT: usize = 100_000_000;
+
+/// Largest coordinate that is taken for meant, metres.
+const MAX_COORDINATE: f32 = 1e9;
+
+/// A triangle whose height is below this share of its longest edge counts as a line.
+const DEGENERATE_SHARE: f32 = 1e-7;
+
+/// Adds `geometry` to the scene as one instance.
+pub(super) fn place(
+    scene: &mut Scene,
+    geometry: &Geometry,
+    world_from_mesh: DAffine3,
+    name: String,
+    material: MaterialId,
+) -> Result<(), Cause> {
+    let corners = corner_indices(geometry);
+    let sources = vertex_sources(geometry);
+    check_room(scene, sources.len(), corners.len())?;
+    let first = scene.vertices.len();
+    add_vertices(scene, geometry, &sources, world_from_mesh, &name)?;
+    add_irradiance(scene, geometry, &sources, first);
+
+    let instance = InstanceId::new(scene.instances.len());
+    let first_triangle = scene.triangles.len();
+    let is_mirrored = world_from_mesh.matrix3.determinant() < 0.0;
+    for corners in corners {
+        let [a, b, c] = corners.map(|corner| corner + first as u32);
+        let vertices = if is_mirrored { [a, c, b] } else { [a, b, c] };
+        let positions = vertices.map(|v| scene.vertices[v as usize].position);
+        if is_degenerate(positions) {
+            scene.dropped_triangles += 1;
+            continue;
+        }
+        give_missing_normals(scene, vertices, normal_of(positions));
+        scene.triangles.push(Triangle { vertices, material, instance, is_back_side: geometry.is_back_side });
+    }
+    for vertex in scene.vertices[first..].iter_mut().filter(|vertex| vertex.normal == Vec3::ZERO) {
+        vertex.normal = Vec3::Y;
+    }
+    scene.instances.push(Instance { name, triangles: first_triangle..scene.triangles.len() });
+    Ok(())
+}
+
+/// Vertices of the geometry in the order they are placed: as they are, or split per triangle for flat normals.
+fn vertex_sources(geometry: &Geometry) -> Vec<u32> {
+    if geometry.has_normals {
+        (0..geometry.vertices.len() as u32).collect()
+    } else {
+        geometry.triangles.iter().flatten().copied().collect()
+    }
+}
+
+/// Corners of the triangles as indices into [`vertex_sources`].
+fn corner_indices(geometry: &Geometry) -> Vec<[u32; 3]> {
+    if geometry.has_normals {
+        geometry.triangles.clone()
+    } else {
+        (0..geometry.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect()
+    }
+}
+
+fn check_room(scene: &Scene, more_vertices: usize, more_triangles: usize) -> Result<(), Cause> {
+    let vertices = scene.vertices.len() + more_vertices;
+    let triangles = scene.triangles.len() + more_triangles;
+    if vertices.max(triangles) > MAX_COUNT {
+        return Err(Cause::TooLarge(format!("more than {MAX_COUNT} vertices or triangles, all instances counted")));
+    }
+    Ok(())
+}
+
+fn add_vertices(
+    scene: &mut Scene,
+    geometry: &Geometry,
+    sources: &[u32],
+    world_from_mesh: DAffine3,
+    name: &str,
+) -> Result<(), Cause> {
+    let normal_matrix = normal_matrix(world_from_mesh.matrix3);
+    scene.vertices.reserve(sources.len());
+    for &source in sources {
+        let vertex = &geometry.vertices[source as usize];
+        let position = world_from_mesh.transform_point3(vertex.position.as_dvec3()).as_vec3();
+        if !position.is_finite() || position.abs().max_element() > MAX_COORDINATE {
+            return Err(Cause::NotFinite(format!("a vertex position of {name:?}")));
+        }
+        let normal = (normal_matrix * vertex.normal.as_dvec3()).normalize_or_zero().as_vec3();
+        scene.vertices.push(Vertex { position, normal, ..*vertex });
+    }
+    Ok(())
+}
+
+/// Inverse transpose up to scale, by cofactors: it also serves transforms that flatten an object.
+fn normal_matrix(linear: DMat3) -> DMat3 {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = linear;
+    let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
+    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
+}
+
+/// Vertices without an attribute that others have get zeros.
+fn add_irradiance(scene: &mut Scene, geometry: &Geometry, sources: &[u32], first: usize) {
+    for attribute in &geometry.irradiance {
+        let values = match scene.irradiance.iter_mut().find(|stored| stored.name == attribute.name) {
+            Some(stored) => &mut stored.values,
+            None => {
+                scene.irradiance.push(VertexAttribute { name: attribute.name.clone(), values: Vec::new() });
+                &mut scene.irradiance.last_mut().expect("just pushed").values
+            }
+        };
+        values.resize(first, Vec3::ZERO);
+        values.extend(sources.iter().map(|&source| attribute.values[source as usize]));
+    }
+    for stored in &mut scene.irradiance {
+        stored.values.resize(scene.vertices.len(), Vec3::ZERO);
+    }
+}
+
+fn is_degenerate(positions: [Vec3; 3]) -> bool {
+    let [a, b, c] = positions;
+    let longest_squared = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+    let area = edge_cross(positions).length();
+    area <= DEGENERATE_SHARE * longest_squared || normal_of(positions) == Vec3::ZERO
+}
+
+fn give_missing_normals(scene: &mut Scene, vertices: [u32; 3], normal: Vec3) {
+    for v in vertices {
+        let vertex = &mut scene.vertices[v as usize];
+        if vertex.normal == Vec3::ZERO {
+            vertex.normal = normal;
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Bytes behind a glTF URI: embedded `data:`, or a file in the scene's folder; nothing else is ever opened.
+
+use std::path::{Component, Path, PathBuf};
+
+use base64::Engine;
+use base64::engine::DecodePaddingMode;
+use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
+use percent_encoding::percent_decode_str;
+
+/// Bytes of `uri`; `folder` is where the scene lies, none for built-in bytes.
+///
+/// Errors: one sentence that names the URI, for the caller to put into its own error or note.
+pub(super) fn fetch(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String> {
+    if let Some(data) = uri.strip_prefix("data:") {
+        return decode_data_uri(data);
+    }
+    let relative = relative_path(uri)?;
+    let folder = folder.ok_or_else(|| format!("{uri:?} is an external file, but the scene has no folder"))?;
+    let path = folder.join(relative);
+    if !path.is_file() {
+        return Err(format!("the file {uri:?} is missing (it belongs beside the scene)"));
+    }
+    std::fs::read(&path).map_err(|error| format!("cannot read {uri:?}: {error}"))
+}
+
+fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
+    let (head, payload) = data.split_once(',').ok_or("its data: URI has no comma")?;
+    if !head.ends_with(";base64") {
+        return Ok(percent_decode_str(payload).collect());
+    }
+    let lenient = GeneralPurposeConfig::new().with_decode_padding_mode(DecodePaddingMode::Indifferent);
+    GeneralPurpose::new(&base64::alphabet::STANDARD, lenient)
+        .decode(payload)
+        .map_err(|error| format!("its data: URI is not valid base64: {error}"))
+}
+
+/// The path inside the scene's folder that a URI names; whatever could lead out of the folder is refused.
+fn relative_path(uri: &str) -> Result<PathBuf, String> {
+    let decoded = percent_decode_str(uri).decode_utf8().map_err(|_| format!("{uri:?} is not UTF-8"))?;
+    let refused = || format!("{uri:?} is refused: only files in the scene's own folder and data: URIs are read");
+    // A colon or backslash means another scheme, a drive, or a Windows path.
+    if decoded.is_empty() || decoded.contains([':', '\\', '\0']) {
+        return Err(refused());
+    }
+    let path = PathBuf::from(decoded.as_ref());
+    let stays_inside = path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    if stays_inside { Ok(path) } else { Err(refused()) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn data_uris_are_decoded_with_and_without_padding() {
+        assert_eq!(fetch("data:application/octet-stream;base64,AQI=", None), Ok(vec![1, 2]));
+        assert_eq!(fetch("data:;base64,AQI", None), Ok(vec![1, 2]));
+        assert_eq!(fetch("data:text/plain,a%20b", None), Ok(b"a b".to_vec()));
+        assert!(fetch("data:;base64,*", None).is_err());
+    }
+
+    #[test]
+    fn paths_out_of_the_folder_are_refused() {
+        for uri in ["../a.bin", "a/../../b", "/etc/passwd", "file:///a", "http://h/a", "C:\\a", "%2e%2e/a", "a%5Cb", ""]
+        {
+            assert!(relative_path(uri).is_err(), "{uri}");
+        }
+        assert_eq!(relative_path("./textures/my%20wood.png"), Ok(PathBuf::from("./textures/my wood.png")));
+    }
+}

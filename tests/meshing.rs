@@ -1,0 +1,69 @@
+//! Elements, trees and patches on small scenes.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+use hemicube::base::ids::TriangleId;
+use hemicube::base::sampling::{r2, triangle_from_square};
+use hemicube::patch::{MeshSettings, PatchMesh};
+
+use crate::support::scenes;
+
+fn furnace_mesh() -> (hemicube::scene::Scene, PatchMesh) {
+    let scene = scenes::furnace(Vec3::splat(0.5), Vec3::ONE);
+    let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.13, patch_size: 0.4 }).unwrap();
+    (scene, mesh)
+}
+
+#[test]
+fn the_tree_finds_the_element_that_holds_a_point() {
+    let (scene, mesh) = furnace_mesh();
+    for t in 0..scene.triangles.len() {
+        let triangle = TriangleId::new(t);
+        let corners = scene.corners(triangle);
+        for i in 0..500 {
+            let weights = triangle_from_square(r2(i, t as u32));
+            let point = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+            let element = &mesh.elements[mesh.element_at(triangle, weights).index()];
+            let [a, b, c] = mesh.corners(element);
+            let whole = (b - a).cross(c - a);
+            for [from, to] in [[a, b], [b, c], [c, a]] {
+                let side = (to - from).cross(point - from).dot(whole);
+                assert!(side >= -1e-6, "point {point} lies outside its element");
+            }
+            assert_eq!(element.triangle, triangle);
+        }
+    }
+}
+
+#[test]
+fn elements_are_conforming_and_small_and_fill_the_surface() {
+    let (scene, mesh) = furnace_mesh();
+    let mut uses: HashMap<[[u32; 3]; 2], usize> = HashMap::new();
+    for element in &mesh.elements {
+        let corners = mesh.corners(element);
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            assert!(a.distance(b) <= 0.13);
+            let mut edge = [a, b].map(|p| p.to_array().map(f32::to_bits));
+            edge.sort_unstable();
+            *uses.entry(edge).or_default() += 1;
+        }
+    }
+    // The room is closed: an edge that only one element uses would be a T-vertex.
+    assert!(uses.values().all(|&count| count == 2), "an edge is not shared by exactly two elements");
+    let area: f64 = mesh.elements.iter().map(|element| f64::from(element.area)).sum();
+    assert!((area - scene.area()).abs() < 1e-5);
+}
+
+#[test]
+fn patches_are_flat_pieces_of_about_the_asked_size() {
+    let (_, mesh) = furnace_mesh();
+    for patch in &mesh.patches {
+        let members = mesh.members_of(patch);
+        let instance = |e: hemicube::base::ids::ElementId| mesh.elements[e.index()].triangle.0 / 2;
+        assert!(members.iter().all(|&e| instance(e) == instance(members[0])), "a patch spans two walls");
+        assert!(patch.area <= 0.3 * 0.8, "a patch of {} m2", patch.area);
+    }
+    assert!((36..=100).contains(&mesh.patches.len()), "{} patches", mesh.patches.len());
+}
