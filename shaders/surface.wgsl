@@ -62,11 +62,10 @@ struct Varying {
     @builtin(position) @invariant position: vec4f,
     @location(0) normal: vec3f,
     @location(1) colour: vec4f,
-    @location(2) base_uv: vec2f,
-    @location(3) metallic_uv: vec2f,
-    @location(4) emissive_uv: vec2f,
+    // Both coordinate sets.
+    @location(2) uv: vec4f,
     // Radiance of an ideal white surface; centroid, so that it is never extrapolated beyond the triangle.
-    @location(5) @interpolate(perspective, centroid) white_radiance: vec3f,
+    @location(3) @interpolate(perspective, centroid) white_radiance: vec3f,
 }
 
 @vertex
@@ -75,16 +74,9 @@ fn vertex(in: Vertex) -> Varying {
     out.position = frame.projection_from_world * vec4f(in.position, 1.0);
     out.normal = in.normal;
     out.colour = in.colour;
-    out.base_uv = coordinate(material.base_slot, in.uv);
-    out.metallic_uv = coordinate(material.metallic_slot, in.uv);
-    out.emissive_uv = coordinate(material.emissive_slot, in.uv);
+    out.uv = in.uv;
     out.white_radiance = frame.ambient + vertex_irradiance(in.index) / PI;
     return out;
-}
-
-fn coordinate(slot: Slot, uv: vec4f) -> vec2f {
-    let at = vec3f(select(uv.xy, uv.zw, slot.uv_set == 1u), 1.0);
-    return vec2f(dot(slot.u, at), dot(slot.v, at));
 }
 
 fn vertex_irradiance(index: u32) -> vec3f {
@@ -120,12 +112,17 @@ fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) 
     return vec4f(select(stored, stored * coverage, ALPHA_MODE == ALPHA_BLEND), coverage);
 }
 
+fn coordinate(slot: Slot, uv: vec4f) -> vec2f {
+    let at = vec3f(select(uv.xy, uv.zw, slot.uv_set == 1u), 1.0);
+    return vec2f(dot(slot.u, at), dot(slot.v, at));
+}
+
 fn base_colour(in: Varying) -> vec4f {
     let factor = material.base_colour * in.colour;
     if material.base_slot.is_used == 0u {
         return factor;
     }
-    return factor * textureSample(base_texture, base_sampler, in.base_uv);
+    return factor * textureSample(base_texture, base_sampler, coordinate(material.base_slot, in.uv));
 }
 
 // Share of the pixel that the surface fills.
@@ -170,7 +167,7 @@ fn metallic(in: Varying) -> f32 {
     if material.metallic_slot.is_used == 0u {
         return material.metallic;
     }
-    return material.metallic * textureSample(metallic_texture, metallic_sampler, in.metallic_uv).b;
+    return material.metallic * textureSample(metallic_texture, metallic_sampler, coordinate(material.metallic_slot, in.uv)).b;
 }
 
 fn emission(in: Varying) -> vec3f {
@@ -181,5 +178,5 @@ fn emission(in: Varying) -> vec3f {
     if material.emissive_slot.is_used == 0u {
         return emitted;
     }
-    return emitted * textureSample(emissive_texture, emissive_sampler, in.emissive_uv).rgb;
+    return emitted * textureSample(emissive_texture, emissive_sampler, coordinate(material.emissive_slot, in.uv)).rgb;
 }

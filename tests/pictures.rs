@@ -1,10 +1,15 @@
 //! Pictures: radiance of known surfaces, texture reading, alpha, faces, exposure.
 
+use std::f32::consts::PI;
+use std::path::Path;
+
 use glam::{Affine2, Vec2, Vec3};
 use hemicube::base::ids::GroupId;
-use hemicube::render::{Exposure, Look, Picture, Shading, ToneMap, picture, picture_with_samples};
+use hemicube::gpu::readback::read_texture;
+use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::{Exposure, Look, Picture, Raster, Renderer, Shading, ToneMap, View, picture, picture_of};
 use hemicube::scene::{AlphaMode, Camera, Material};
-use std::f32::consts::PI;
+use wgpu::{CommandEncoderDescriptor, Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages};
 
 use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, slot, square_camera, texture};
@@ -26,7 +31,8 @@ fn plain() -> Look {
 /// The square seen face on, without multisampling.
 fn draw(quads: &Quads, look: &Look) -> Option<Picture> {
     let gpu = gpu()?;
-    Some(picture_with_samples(gpu, &quads.baked, &square_camera(), [SIZE; 2], look, 1).expect("a picture"))
+    let scene = SceneBuffers::new(gpu, &quads.baked);
+    Some(picture_of(gpu, &scene, &square_camera(), [SIZE; 2], look, 1).expect("a picture"))
 }
 
 fn radiance_at(picture: &Picture, x: u32, y: u32) -> Vec3 {
@@ -229,7 +235,8 @@ fn masks_have_holes_with_and_without_multisampling() {
     let quads = window(AlphaMode::Mask { cutoff: 0.5 }, 100);
     let Some(gpu) = gpu() else { return };
     for samples in [1, 4] {
-        let drawn = picture_with_samples(gpu, &quads.baked, &square_camera(), [SIZE; 2], &plain(), samples);
+        let scene = SceneBuffers::new(gpu, &quads.baked);
+        let drawn = picture_of(gpu, &scene, &square_camera(), [SIZE; 2], &plain(), samples);
         let white = [255; 3];
         assert_eq!(quarters(&drawn.expect("a picture")), [[255, 0, 0], white, white, white], "{samples} samples");
     }
@@ -372,6 +379,105 @@ fn impossible_sizes_are_refused() {
     }
 }
 
+#[test]
+fn edges_of_lamps_are_smooth_on_the_display() {
+    let mut quads = Quads::with_groups(1);
+    let lamp = quads.material(Material { emission: Vec3::splat(100.0), ..paint(Vec3::ZERO) });
+    quads.quad(Vec3::new(-0.7, -0.5, 0.0), Vec3::new(1.0, 0.3, 0.0), Vec3::new(-0.3, 1.0, 0.0), lamp);
+    quads.light(GroupId(0), |_| Vec3::ZERO, |_| Vec3::ZERO);
+    let Some(gpu) = gpu() else { return };
+    let picture = picture(gpu, &quads.baked, &square_camera(), [SIZE; 2], &plain()).expect("a picture");
+    let shown = Raster::displayed(&picture);
+    let edges: Vec<_> = (0..shown.pixels.len()).filter(|&i| (0.1..0.9).contains(&picture.radiance[i][3])).collect();
+    assert!(edges.len() > 50, "{}", edges.len());
+    for i in edges {
+        assert!(
+            (shown.pixels[i].x - picture.radiance[i][3]).abs() < 0.01,
+            "{} {:?}",
+            shown.pixels[i],
+            picture.radiance[i]
+        );
+    }
+}
+
+#[test]
+fn a_target_that_encodes_srgb_shows_the_same() {
+    let Some(gpu) = gpu() else { return };
+    let quads = four_texels();
+    let [plain_target, encoding_target] =
+        [TextureFormat::Rgba8Unorm, TextureFormat::Rgba8UnormSrgb].map(|format| draw_two_into(gpu, format, &quads));
+    for (a, b) in plain_target.iter().zip(&encoding_target) {
+        assert!(a.abs_diff(*b) <= 1, "{a} {b}");
+    }
+}
+
+#[test]
+fn two_pictures_in_one_submission_keep_their_own_look() {
+    let Some(gpu) = gpu() else { return };
+    let bytes = draw_two_into(gpu, TextureFormat::Rgba8Unorm, &four_texels());
+    let (first, second) = bytes.split_at(bytes.len() / 2);
+    assert_eq!(&first[..3], [255, 0, 0]);
+    assert!(second[0].abs_diff(137) <= 1, "a quarter of the first: {}", second[0]);
+}
+
+/// Bytes of two pictures drawn in one submission, the second two stops darker.
+fn draw_two_into(gpu: &Gpu, format: TextureFormat, quads: &Quads) -> Vec<u8> {
+    let scene = SceneBuffers::new(gpu, &quads.baked);
+    let mut renderer = Renderer::new(gpu, format, 1);
+    let view = View::from_camera(&square_camera(), 1.0);
+    let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+    let targets = [0.0, -2.0].map(|ev| {
+        let target = gpu.device.create_texture(&TextureDescriptor {
+            label: None,
+            size: Extent3d { width: SIZE, height: SIZE, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: TextureDimension::D2,
+            format,
+            usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
+            view_formats: &[],
+        });
+        let look = Look { exposure: Exposure::Ev(ev), ..plain() };
+        renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), [SIZE; 2], &scene, &view, &look);
+        target
+    });
+    gpu.queue.submit([encoder.finish()]);
+    targets.iter().flat_map(|target| read_texture(gpu, target, 4).expect("a picture")).collect()
+}
+
+#[test]
+fn light_can_be_replaced_on_the_device() {
+    let Some(gpu) = gpu() else { return };
+    let mut quads = Quads::square(paint(Vec3::ONE), Vec3::ZERO);
+    let scene = SceneBuffers::new(gpu, &quads.baked);
+    quads.light(GroupId(0), |_| Vec3::splat(PI), |_| Vec3::splat(PI));
+    scene.set_light(gpu, &quads.baked.light);
+    let replaced = picture_of(gpu, &scene, &square_camera(), [SIZE; 2], &plain(), 1).expect("a picture");
+    assert_close(radiance_at(&replaced, 9, 9), Vec3::splat(2.0));
+}
+
+#[test]
+fn files_hold_what_the_picture_holds() {
+    let Some(picture) = draw(&four_texels(), &plain()) else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let (png, exr) = (folder.path().join("a.png"), folder.path().join("a.EXR"));
+    picture.save(&png).expect("written");
+    picture.save(&exr).expect("written");
+    assert_eq!(Raster::load(&png).expect("read").pixels, Raster::displayed(&picture).pixels);
+    assert_eq!(Raster::load(&exr).expect("read"), Raster::radiance(&picture));
+    assert_eq!(std::fs::read_dir(folder.path()).expect("listed").count(), 2, "no temporary file is left");
+}
+
+#[test]
+fn a_file_that_cannot_be_written_or_read_is_named() {
+    let Some(picture) = draw(&four_texels(), &plain()) else { return };
+    let nowhere = Path::new("/no/such/folder/a.png");
+    let messages = [picture.save(nowhere).expect_err("no folder"), Raster::load(nowhere).expect_err("no file")];
+    for message in messages.map(|error| error.to_string()) {
+        assert!(message.contains("/no/such/folder/a.png"), "{message}");
+    }
+}
+
 /// A box open towards the camera with a red and a green wall, a lamp and light that falls off from the lamp.
 fn room() -> Quads {
     let mut quads = Quads::with_groups(1);
@@ -395,6 +501,7 @@ fn room() -> Quads {
 fn a_room_looks_as_it_did() {
     let Some(gpu) = gpu() else { return };
     let camera = Camera::looking_at("room", Vec3::new(0.3, 0.2, 4.2), Vec3::ZERO, 0.65);
-    let drawn = picture_with_samples(gpu, &room().baked, &camera, [256; 2], &Look::default(), 1);
+    let scene = SceneBuffers::new(gpu, &room().baked);
+    let drawn = picture_of(gpu, &scene, &camera, [256; 2], &Look::default(), 1);
     assert_snapshot("room", &drawn.expect("a picture"));
 }

@@ -123,3 +123,24 @@ fn bind_group(
     }
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor { label: Some(&material.name), layout, entries: &entries })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::shaders::{SURFACE, struct_layout};
+    use std::mem::offset_of;
+
+    #[test]
+    fn uniforms_lie_as_the_shader_reads_them() {
+        macro_rules! offsets {
+            ($uniform:ty: $($field:ident),+) => { vec![$(offset_of!($uniform, $field)),+, size_of::<$uniform>()] };
+        }
+        let slot = offsets![SlotUniform: u, uv_set, v, is_used];
+        assert_eq!(slot, struct_layout(&SURFACE, "Slot"));
+        let material = offsets![
+            MaterialUniform: base_colour, emission, metallic, base_slot, metallic_slot, emissive_slot, alpha_cutoff,
+            group, double_sided, unlit
+        ];
+        assert_eq!(material, struct_layout(&SURFACE, "Material"));
+    }
+}

@@ -75,6 +75,15 @@ pub fn validate(source: &str) -> Result<(), String> {
     Ok(())
 }
 
+/// Byte offsets of the members of a WGSL struct and its size, to hold Rust structs against.
+#[cfg(test)]
+pub fn struct_layout(shader: &Shader, name: &str) -> Vec<usize> {
+    let module = naga::front::wgsl::parse_str(&shader.source()).expect("every shader is valid");
+    let (_, found) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).expect("the struct is there");
+    let naga::TypeInner::Struct { members, span } = &found.inner else { panic!("{name} is no struct") };
+    members.iter().map(|member| member.offset).chain([*span]).map(|offset| offset as usize).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

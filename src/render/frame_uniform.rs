@@ -96,3 +96,34 @@ pub fn frame_bind_group(
         entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::shaders::{SURFACE, struct_layout};
+    use std::mem::offset_of;
+
+    #[test]
+    fn the_uniform_lies_as_the_shader_reads_it() {
+        macro_rules! offsets {
+            ($($field:ident),+) => { vec![$(offset_of!(FrameUniform, $field)),+, size_of::<FrameUniform>()] };
+        }
+        let written = offsets![
+            projection_from_world,
+            group_weights,
+            ambient,
+            direct,
+            background,
+            indirect,
+            pre_exposure,
+            exposure,
+            tone_map,
+            shading,
+            metal_as_diffuse,
+            num_groups,
+            num_vertices,
+            padding
+        ];
+        assert_eq!(written, struct_layout(&SURFACE, "Frame"));
+    }
+}

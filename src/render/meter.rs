@@ -5,8 +5,8 @@ use crate::gpu::{Gpu, shaders};
 
 /// `NUM_BINS` of shaders/meter.wgsl.
 const NUM_BINS: u64 = 256;
-/// Pixels on a side of a compute group.
-const TILE: u32 = 16;
+/// Pixels that a compute group steps over each way: 16 invocations, every other pixel.
+const TILE: u32 = 32;
 
 /// Metering.
 pub struct Meter {

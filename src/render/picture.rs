@@ -36,16 +36,16 @@ pub fn picture(
     size: [u32; 2],
     look: &Look,
 ) -> Result<Picture, GpuError> {
-    picture_with_samples(gpu, baked, camera, size, look, SAMPLES)
+    picture_of(gpu, &SceneBuffers::new(gpu, baked), camera, size, look, SAMPLES)
 }
 
-/// A picture of `size` pixels with `samples` samples a pixel, 1 or 4.
+/// A picture of a scene that is on the device already, with `samples` samples a pixel, 1 or 4.
 ///
 /// # Errors
 /// As [`picture`].
-pub fn picture_with_samples(
+pub fn picture_of(
     gpu: &Gpu,
-    baked: &BakedScene,
+    scene: &SceneBuffers,
     camera: &Camera,
     size: [u32; 2],
     look: &Look,
@@ -55,12 +55,11 @@ pub fn picture_with_samples(
     if size.iter().any(|&side| side == 0 || side > limit) {
         return Err(GpuError::PictureSize { width: size[0], height: size[1], limit });
     }
-    let scene = SceneBuffers::new(gpu, baked);
     let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, samples);
     let target = display_target(gpu, size);
     let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, &scene, &view, look);
+    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, scene, &view, look);
     gpu.queue.submit([encoder.finish()]);
 
     let display = read_texture(gpu, &target, 4)?;

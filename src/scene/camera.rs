@@ -43,6 +43,18 @@ impl Camera {
         }
     }
 
+    /// A camera that sees the whole box from above one corner: for scenes that bring none.
+    #[must_use]
+    pub fn framing((low, high): (Vec3, Vec3)) -> Self {
+        let fov_y = 45f32.to_radians();
+        let centre = 0.5 * (low + high);
+        let radius = (0.5 * (high - low).length()).max(1e-3);
+        // At this distance the sphere round the box just touches the edges of the view.
+        let distance = radius / (0.5 * fov_y).sin();
+        let direction = Vec3::new(0.5, 0.4, 1.0).normalize();
+        Self::looking_at("overview", centre + distance * direction, centre, fov_y)
+    }
+
     /// Matrix from world space to view space.
     #[must_use]
     pub fn view_from_world(&self) -> Mat4 {
@@ -53,5 +65,28 @@ impl Camera {
     #[must_use]
     pub fn forward(&self) -> Vec3 {
         self.world_from_view * Vec3::NEG_Z
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn framing_sees_every_corner_of_the_box() {
+        let (low, high) = (Vec3::new(-3.0, 0.0, 2.0), Vec3::new(5.0, 2.5, 30.0));
+        let camera = Camera::framing((low, high));
+        let projection = glam::camera::rh::proj::directx::perspective_infinite_reverse(45f32.to_radians(), 1.0, 0.01);
+        for i in 0..8u32 {
+            let corner = Vec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low);
+            let seen = (projection * camera.view_from_world()).project_point3(corner);
+            assert!(seen.truncate().abs().max_element() <= 1.0 && seen.z > 0.0, "{corner} is at {seen}");
+        }
+    }
+
+    #[test]
+    fn framing_of_a_point_is_a_camera_all_the_same() {
+        let camera = Camera::framing((Vec3::ONE, Vec3::ONE));
+        assert!(camera.position.is_finite() && camera.position != Vec3::ONE);
     }
 }
