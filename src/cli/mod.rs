@@ -3,9 +3,8 @@
 pub mod bake;
 pub mod bake_options;
 pub mod info;
+pub mod view;
 mod terminal;
-
-use std::path::PathBuf;
 
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
@@ -17,8 +16,9 @@ pub struct Cli {
     /// What to do; without it the viewer opens.
     #[command(subcommand)]
     pub command: Option<Command>,
-    /// Scene to open in the viewer (.glb or .gltf, also a baked one; FILE#NAME chooses one of its scenes).
-    pub scene: Option<PathBuf>,
+    /// Options of the viewer.
+    #[command(flatten)]
+    pub view: view::ViewArgs,
     /// How much is told.
     #[command(flatten)]
     pub verbosity: Verbosity,
@@ -70,6 +70,6 @@ pub fn run(cli: &Cli) -> Result<()> {
     match &cli.command {
         Some(Command::Bake(args)) => bake::run(args, cli.verbosity.is_quiet()),
         Some(Command::Info(args)) => info::run(args),
-        None => anyhow::bail!("this build has no viewer"),
+        None => view::run(&cli.view),
     }
 }

@@ -13,12 +13,11 @@ use anyhow::Context;
 use winit::event_loop::EventLoopProxy;
 
 use super::collider::Collider;
-use super::stand_in::{Bake, BakeSettings, bake, from_scene, gallery, load};
-use crate::bake::Watch;
-use crate::baked::{BakedScene, VertexLight};
+use crate::bake::{Bake, BakeSettings, Watch, bake};
+use crate::baked::{self, BakedScene, VertexLight};
 use crate::base::progress::{Cancel, Gate, Progress, Stage};
 use crate::gpu::{Gpu, SceneBuffers};
-use crate::scene::Scene;
+use crate::scene::{Scene, builtin, gltf};
 
 /// The window hears of progress at most this often.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
@@ -26,10 +25,35 @@ const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
 /// Where a scene comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// The scene that the program brings.
-    BuiltIn,
+    /// A scene that the program makes, by name.
+    BuiltIn(String),
     /// A glTF file.
     File(PathBuf),
+}
+
+impl Default for Source {
+    /// The scene for a first look.
+    fn default() -> Self {
+        Self::BuiltIn(builtin::NAMES[0].to_owned())
+    }
+}
+
+impl Source {
+    /// A file, or `builtin:NAME`.
+    #[must_use]
+    pub fn of(path: PathBuf) -> Self {
+        match path.to_str().and_then(|text| text.strip_prefix(builtin::PREFIX)) {
+            Some(name) => Self::BuiltIn(name.to_owned()),
+            None => Self::File(path),
+        }
+    }
+
+    fn load(&self) -> anyhow::Result<Scene> {
+        match self {
+            Self::BuiltIn(name) => builtin::by_name(name).with_context(|| format!("there is no built-in scene {name}")),
+            Self::File(path) => Ok(gltf::load(path)?),
+        }
+    }
 }
 
 /// What a worker is asked to do.
@@ -117,7 +141,8 @@ impl Worker {
             progress: Mutex::new((Stage::Load, 0.0)),
             wants_light: AtomicBool::new(true),
         });
-        let runner = Runner { number, gpu, window, shared: Arc::clone(&shared), mesh: OnceLock::new(), told: Mutex::new(None) };
+        let runner =
+            Runner { number, gpu, window, shared: Arc::clone(&shared), mesh: OnceLock::new(), told: Mutex::new(None) };
         let thread = std::thread::Builder::new().name("bake".to_owned()).spawn(move || runner.run(job));
         Ok(Self { shared, thread: Some(thread.context("cannot start the bake")?) })
     }
@@ -193,16 +218,9 @@ impl Runner {
     }
 
     fn open(&self, source: &Source, settings: &BakeSettings) -> anyhow::Result<()> {
-        let scene = match source {
-            Source::BuiltIn => gallery(),
-            Source::File(path) => load(path)?,
-        };
-        let is_baked = !scene.irradiance.is_empty();
-        let baked = if is_baked {
-            from_scene(scene).context("the light that is stored in the file cannot be used")?
-        } else {
-            let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
-            BakedScene { scene, light }
+        let (baked, is_baked) = match baked::gltf::from_scene(source.load()?) {
+            Ok(baked) => (baked, true),
+            Err(scene) => (dark(scene), false),
         };
         let collider = Collider::new(&baked.scene);
         let buffers = Arc::new(SceneBuffers::new(&self.gpu, &baked));
@@ -225,6 +243,12 @@ impl Runner {
         // Nobody listens once the window is closed.
         let _ = self.window.send_event(News { job: self.number, event });
     }
+}
+
+/// A scene as the file has it, without any light.
+fn dark(scene: Scene) -> BakedScene {
+    let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
+    BakedScene { scene, light }
 }
 
 impl Progress for Runner {

@@ -3,9 +3,8 @@
 //! Pure: no window, no clock, no scene. What the keys mean is in [`super::input`], walls and floors are in
 //! [`super::walk`].
 
-use glam::{Mat4, Quat, Vec3};
+use glam::{Quat, Vec3};
 
-use crate::render::View;
 use crate::scene::{Camera, Projection};
 
 /// Vertical field of view of a file that brings no camera, radians.
@@ -77,15 +76,14 @@ impl Eye {
         self.position = 0.5 * (low + high) - self.forward() * (radius / half_angle.sin());
     }
 
-    /// Matrices for the picture, `aspect` wide over high, nothing nearer than `near` metres.
+    /// The eye as a camera that pictures are taken with.
     #[must_use]
-    pub fn view(&self, aspect: f32, near: f32) -> View {
-        View {
-            camera_position: self.position,
-            view_from_world: Mat4::from_rotation_translation(self.rotation(), self.position).inverse(),
-            projection_from_view: glam::camera::rh::proj::directx::perspective_infinite_reverse(
-                self.fov_y, aspect, near,
-            ),
+    pub fn camera(&self) -> Camera {
+        Camera {
+            name: "eye".to_owned(),
+            position: self.position,
+            world_from_view: self.rotation(),
+            projection: Projection::Perspective { fov_y: self.fov_y },
         }
     }
 
@@ -129,6 +127,7 @@ impl Glide {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::View;
 
     #[test]
     fn looking_along_and_forward_are_inverse() {
@@ -142,7 +141,7 @@ mod tests {
     fn the_view_matrix_agrees_with_look_at() {
         let eye = Eye::looking_along(Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.3, -0.2, 0.9));
         let expected = glam::camera::rh::view::look_to_mat4(eye.position, eye.forward(), Vec3::Y);
-        assert!(eye.view(1.5, 0.1).view_from_world.abs_diff_eq(expected, 1e-5));
+        assert!(eye.camera().view_from_world().abs_diff_eq(expected, 1e-5));
     }
 
     #[test]
@@ -169,11 +168,11 @@ mod tests {
         for aspect in [0.5, 1.0, 2.0] {
             let mut eye = Eye::looking_along(Vec3::ZERO, Vec3::new(1.0, -0.5, 0.3));
             eye.frame(bounds, aspect);
-            let view = eye.view(aspect, 0.01);
+            let projection_from_world = View::from_camera(&eye.camera(), aspect).projection_from_world();
             for corner in 0..8 {
                 let pick = |bit: u32, axis: usize| if corner >> bit & 1 == 0 { bounds.0[axis] } else { bounds.1[axis] };
                 let point = Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2));
-                let clip = view.projection_from_view * view.view_from_world * point.extend(1.0);
+                let clip = projection_from_world * point.extend(1.0);
                 assert!(clip.w > 0.0 && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w, "{aspect} {point} {clip}");
             }
         }

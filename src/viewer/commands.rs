@@ -7,18 +7,17 @@ use winit::window::Fullscreen;
 use super::bake_worker::Source;
 use super::camera::Eye;
 use super::panels::{Command, Notice, Trouble};
-use super::screen::Sight;
 use super::screenshot;
 use super::session::Place;
 use super::walkthrough::Walkthrough;
-use super::stand_in::BakeSettings;
+use crate::bake::BakeSettings;
 
 impl Walkthrough {
     /// Opens a file that was dropped on the window.
     pub(super) fn open(&mut self, path: PathBuf) {
         self.panels.notice = Some(Notice::new(format!("Opening {}", path.display())));
         let settings = self.next_settings();
-        let outcome = self.session.open(Source::File(path), settings);
+        let outcome = self.session.open(Source::of(path), settings);
         self.report(outcome);
     }
 
@@ -30,8 +29,7 @@ impl Walkthrough {
 
     fn report(&mut self, outcome: anyhow::Result<()>) {
         if let Err(error) = outcome {
-            self.panels.trouble =
-                Some(Trouble { title: "This did not work".to_owned(), text: format!("{error:#}") });
+            self.panels.trouble = Some(Trouble { title: "This did not work".to_owned(), text: format!("{error:#}") });
         }
     }
 
@@ -56,7 +54,7 @@ impl Walkthrough {
             }
             Command::CancelBake => self.cancel(),
             Command::OpenBuiltIn => {
-                let outcome = self.session.open(Source::BuiltIn, self.next_settings());
+                let outcome = self.session.open(Source::default(), self.next_settings());
                 self.report(outcome);
             }
             Command::Jump(_) | Command::StepCamera(_) | Command::FrameAll | Command::ToggleWalking => {
@@ -100,10 +98,9 @@ impl Walkthrough {
     fn take_picture(&mut self) {
         let size = self.screen.size();
         let Some(place) = &self.session.place else { return };
-        let view = place.traveller.view(size);
+        let camera = place.traveller.eye.camera();
         let look = self.panels.light.look(place.is_lit);
-        let sight = Sight { scene: &place.buffers, view: &view, look: &look };
-        match screenshot::take(&self.screen.gpu, &sight, size, Path::new(".")) {
+        match screenshot::take(&self.screen.gpu, &place.buffers, &camera, size, &look, Path::new(".")) {
             Ok(path) => self.panels.notice = Some(Notice::new(format!("Written: {}", path.display()))),
             Err(error) => self.report(Err(error)),
         }

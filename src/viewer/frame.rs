@@ -8,6 +8,7 @@ use super::bake_worker::Worker;
 use super::panels::{Command, Facts};
 use super::screen::{PanelShapes, Shown, Sight};
 use super::walkthrough::Walkthrough;
+use crate::render::View;
 
 impl Walkthrough {
     /// Draws one frame.
@@ -70,7 +71,7 @@ impl Walkthrough {
     fn show(&mut self, panels: &PanelShapes) -> Shown {
         let size = self.screen.size();
         let Some(place) = &self.session.place else { return self.screen.show(&self.window, None, panels) };
-        let view = place.traveller.view(size);
+        let view = View::from_camera(&place.traveller.eye.camera(), size[0] as f32 / size[1] as f32);
         let look = self.panels.light.look(place.is_lit);
         let sight = Sight { scene: &place.buffers, view: &view, look: &look };
         self.screen.show(&self.window, Some(sight), panels)

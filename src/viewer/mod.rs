@@ -24,11 +24,10 @@ mod frame;
 mod gui;
 mod screen;
 mod screenshot;
-mod stand_in;
 
 use std::path::PathBuf;
 
-use self::stand_in::BakeSettings;
+use crate::bake::BakeSettings;
 
 /// What the window opens with.
 #[derive(Clone, Debug)]

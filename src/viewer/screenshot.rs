@@ -4,16 +4,24 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
-use super::screen::{SAMPLES, Sight};
-use crate::gpu::Gpu;
-use crate::render::picture_of_buffers;
+use super::screen::SAMPLES;
+use crate::gpu::{Gpu, SceneBuffers};
+use crate::render::{Look, picture_of};
+use crate::scene::Camera;
 
 /// Draws the view once more and writes it into `folder` as the next `hemicube-NNN.png`.
 ///
 /// # Errors
 /// The GPU was lost or the file cannot be written.
-pub fn take(gpu: &Gpu, sight: &Sight<'_>, size: [u32; 2], folder: &Path) -> anyhow::Result<PathBuf> {
-    let picture = picture_of_buffers(gpu, sight.scene, sight.view, size, sight.look, SAMPLES)?;
+pub fn take(
+    gpu: &Gpu,
+    scene: &SceneBuffers,
+    camera: &Camera,
+    size: [u32; 2],
+    look: &Look,
+    folder: &Path,
+) -> anyhow::Result<PathBuf> {
+    let picture = picture_of(gpu, scene, camera, size, look, SAMPLES)?;
     let path = next_name(folder).context("there are a thousand pictures in this folder already")?;
     picture.save(&path)?;
     Ok(path)

@@ -11,7 +11,7 @@ use super::camera::Eye;
 use super::collider::Collider;
 use super::panels::LightState;
 use super::travel::Traveller;
-use super::stand_in::{Bake, BakeSettings};
+use crate::bake::{Bake, BakeSettings};
 use crate::base::progress::Stage;
 use crate::gpu::{Gpu, SceneBuffers};
 use crate::scene::Scene;

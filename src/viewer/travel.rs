@@ -5,7 +5,6 @@ use glam::Vec3;
 use super::camera::{Eye, Glide};
 use super::collider::Collider;
 use super::walk::{Body, Walker};
-use crate::render::View;
 
 /// Walking pace, metres a second.
 const PACE: f32 = 2.0;
@@ -21,8 +20,6 @@ const NOTCH: f32 = 1.15;
 const SPEED_RANGE: (f32, f32) = (0.05, 50.0);
 /// Longest time that a single frame moves the eye for, seconds.
 const MAX_FRAME: f32 = 0.25;
-/// Nothing nearer than this is drawn, in metres of the scene.
-const NEAR: f32 = 0.02;
 
 /// Where the keys want to go; each axis -1..1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -117,12 +114,6 @@ impl Traveller {
         PACE * self.scale * self.speed * if self.is_walking() { 1.0 } else { FLYING }
     }
 
-    /// What the eye sees in a picture of `size` pixels.
-    #[must_use]
-    pub fn view(&self, size: [u32; 2]) -> View {
-        self.eye.view(size[0] as f32 / size[1] as f32, NEAR * self.scale)
-    }
-
     /// Follows the keys for `seconds`; long frames are cut, so a pause never becomes a leap.
     pub fn advance(&mut self, intent: Intent, seconds: f32, collider: &Collider) {
         let seconds = seconds.min(MAX_FRAME);
@@ -149,8 +140,7 @@ impl Traveller {
     }
 
     fn wanted_velocity(&self, intent: Intent) -> Vec3 {
-        let (ahead, up) =
-            if self.is_walking() { (self.eye.heading(), 0.0) } else { (self.eye.forward(), intent.up) };
+        let (ahead, up) = if self.is_walking() { (self.eye.heading(), 0.0) } else { (self.eye.forward(), intent.up) };
         let direction = ahead * intent.forward + self.eye.right() * intent.right + Vec3::Y * up;
         let running = if intent.run { RUNNING } else { 1.0 };
         direction.clamp_length_max(1.0) * self.pace() * running

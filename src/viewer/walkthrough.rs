@@ -17,7 +17,7 @@ use super::panels::{Notice, Panels, Trouble};
 use super::screen::Screen;
 use super::session::{Outcome, Session};
 use super::shortcuts::command_of;
-use super::stand_in::BakeSettings;
+use crate::bake::BakeSettings;
 
 /// Pixels of a touchpad's scroll that count as one notch of a wheel.
 const PIXELS_A_NOTCH: f64 = 40.0;
@@ -48,7 +48,7 @@ impl Walkthrough {
         let refresh_rate = window.current_monitor().and_then(|monitor| monitor.refresh_rate_millihertz());
         let pacer = Pacer::new(refresh_rate.map_or(60.0, |rate| rate as f32 / 1e3), options.frame_log.as_deref())?;
         let mut session = Session::new(Arc::clone(&screen.gpu), proxy);
-        let source = options.scene.clone().map_or(Source::BuiltIn, Source::File);
+        let source = options.scene.clone().map_or_else(Source::default, Source::of);
         session.open(source, options.settings)?;
         Ok(Self {
             adapter: screen.gpu.name(),

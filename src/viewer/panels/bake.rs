@@ -3,7 +3,7 @@
 use egui::{Button, ProgressBar, RichText, Ui};
 
 use super::{Command, Facts, LightState, clock, grouped, row, theme};
-use crate::viewer::stand_in::Quality;
+use crate::bake::Quality;
 use crate::base::progress::Stage;
 
 pub fn bake_ui(ui: &mut Ui, quality: &mut Quality, facts: &Facts<'_>, commands: &mut Vec<Command>) {

@@ -21,7 +21,7 @@ use glam::Vec3;
 pub use message::{Notice, Trouble};
 
 use super::settings::LightSettings;
-use crate::viewer::stand_in::Quality;
+use crate::bake::Quality;
 use crate::base::progress::Stage;
 use crate::scene::Scene;
 
@@ -146,14 +146,7 @@ impl Panels {
     /// Everything as a new user finds it.
     #[must_use]
     pub fn new(quality: Quality) -> Self {
-        Self {
-            light: LightSettings::default(),
-            quality,
-            is_open: true,
-            shows_help: false,
-            notice: None,
-            trouble: None,
-        }
+        Self { light: LightSettings::default(), quality, is_open: true, shows_help: false, notice: None, trouble: None }
     }
 
     /// Lays out all panels; what the user asked for.
