@@ -3,6 +3,11 @@
 
 mod support;
 
+mod assets;
+mod builtin;
+mod floors;
+mod loader;
 mod meshing;
 mod pictures;
 mod radiosity;
+mod render_command;

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use super::bake_options::{BakeOptions, bake_watched, load};
-use crate::bake::Report;
+use super::bake_options::{BakeOptions, bake_watched, load, positive};
+use crate::bake::{BakeSettings, Report};
 use crate::baked;
 use crate::gpu::Gpu;
 
@@ -23,6 +23,9 @@ pub struct BakeArgs {
     /// How to bake.
     #[command(flatten)]
     pub bake: BakeOptions,
+    /// Ends when this share of the first reflected power is unshot [default: 0.01, 0.001 or 0.0003 by preset].
+    #[arg(long, value_name = "X", value_parser = positive)]
+    pub threshold: Option<f32>,
     /// Writes the solution's certificate: counts, energy balance, times.
     #[arg(long, value_name = "R.json")]
     pub report: Option<PathBuf>,
@@ -38,7 +41,9 @@ pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
     }
     let scene = load(&args.scene)?;
     let gpu = Gpu::headless()?;
-    let bake = bake_watched(&gpu, &scene, &args.bake, is_quiet)?;
+    let preset = args.bake.settings();
+    let settings = BakeSettings { threshold: args.threshold.unwrap_or(preset.threshold), ..preset };
+    let bake = bake_watched(&gpu, &scene, &settings, is_quiet)?;
     baked::gltf::write(&args.output, &bake.baked, 0.0)?;
     if let Some(path) = &args.report {
         write_report(path, &bake.report)?;

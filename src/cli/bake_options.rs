@@ -1,10 +1,10 @@
 //! Options of every subcommand that may have to bake, and the way from a file to a lit scene.
 
 use std::io::IsTerminal;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
 use crate::bake::{Bake, BakeSettings, Quality, bake};
@@ -30,9 +30,6 @@ pub struct BakeOptions {
     /// Ends after this many shots a patch on average [default: 64].
     #[arg(long, value_name = "N")]
     pub passes: Option<usize>,
-    /// Ends when this share of the first reflected power is unshot [default: 0.01, 0.001 or 0.0003 by preset].
-    #[arg(long, value_name = "X", value_parser = positive)]
-    pub threshold: Option<f32>,
 }
 
 /// Presets as written on the command line.
@@ -58,14 +55,14 @@ impl BakeOptions {
         BakeSettings {
             element_size: self.element_size,
             hemicube_px: self.hemicube_size.unwrap_or(preset.hemicube_px),
-            threshold: self.threshold.unwrap_or(preset.threshold),
             max_passes: self.passes.unwrap_or(preset.max_passes),
             ..preset
         }
     }
 }
 
-fn positive(text: &str) -> Result<f32, String> {
+/// Parses a number above zero.
+pub fn positive(text: &str) -> Result<f32, String> {
     match text.parse() {
         Ok(value) if value > 0.0 && f32::is_finite(value) => Ok(value),
         _ => Err("must be a positive number".to_owned()),
@@ -84,10 +81,9 @@ fn hemicube_size(text: &str) -> Result<u32, String> {
 /// # Errors
 /// The file cannot be loaded, or there is no such built-in scene.
 pub fn load(path: &Path) -> Result<Scene> {
-    match path.to_str().and_then(|text| text.strip_prefix("builtin:")) {
-        Some("gallery") => Ok(builtin::gallery()),
-        Some("cornell") => Ok(builtin::cornell()),
-        Some(other) => bail!("there is no built-in scene {other}; there are gallery and cornell"),
+    match path.to_str().and_then(|text| text.strip_prefix(builtin::PREFIX)) {
+        Some(name) => builtin::by_name(name)
+            .with_context(|| format!("there is no built-in scene {name}; there are {}", builtin::NAMES.join(" and "))),
         None => Ok(gltf::load(path)?),
     }
 }
@@ -96,12 +92,12 @@ pub fn load(path: &Path) -> Result<Scene> {
 ///
 /// # Errors
 /// The scene cannot be baked.
-pub fn bake_watched(gpu: &Gpu, scene: &Scene, options: &BakeOptions, is_quiet: bool) -> Result<Bake> {
+pub fn bake_watched(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, is_quiet: bool) -> Result<Bake> {
     let cancel = Arc::new(Cancel::default());
     let on_interrupt = Arc::clone(&cancel);
     ctrlc::set_handler(move || on_interrupt.cancel()).context("Ctrl-C cannot be caught")?;
     let watch = TerminalWatch::new(cancel, !is_quiet && std::io::stderr().is_terminal());
-    let finished = bake(gpu, scene, &options.settings(), &watch)?;
+    let finished = bake(gpu, scene, settings, &watch)?;
     watch.finish();
     for note in &scene.notes {
         log::info!("{note}");
@@ -109,13 +105,13 @@ pub fn bake_watched(gpu: &Gpu, scene: &Scene, options: &BakeOptions, is_quiet: b
     Ok(finished)
 }
 
-/// The scene of `path` with its light: stored in the file, or baked now.
+/// A loaded scene with its light: stored in the file, or baked now.
 ///
 /// # Errors
-/// The scene cannot be loaded or baked.
-pub fn lit_scene(gpu: &Gpu, path: &PathBuf, options: &BakeOptions, is_quiet: bool) -> Result<BakedScene> {
-    match baked::gltf::from_scene(load(path)?) {
+/// The scene cannot be baked.
+pub fn lit_scene(gpu: &Gpu, scene: Scene, settings: &BakeSettings, is_quiet: bool) -> Result<BakedScene> {
+    match baked::gltf::from_scene(scene) {
         Ok(baked) => Ok(baked),
-        Err(scene) => Ok(bake_watched(gpu, &scene, options, is_quiet)?.baked),
+        Err(scene) => Ok(bake_watched(gpu, &scene, settings, is_quiet)?.baked),
     }
 }

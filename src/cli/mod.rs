@@ -3,6 +3,7 @@
 pub mod bake;
 pub mod bake_options;
 pub mod info;
+pub mod render;
 pub mod view;
 mod terminal;
 
@@ -40,6 +41,8 @@ pub struct Verbosity {
 pub enum Command {
     /// Solve the light of a scene and write it as a .glb.
     Bake(bake::BakeArgs),
+    /// Draw a picture of a scene, with the light stored in the file or baked now.
+    Render(render::RenderArgs),
     /// Tell what is in a scene and what the mesh doctor finds.
     Info(info::InfoArgs),
 }
@@ -69,6 +72,7 @@ impl Verbosity {
 pub fn run(cli: &Cli) -> Result<()> {
     match &cli.command {
         Some(Command::Bake(args)) => bake::run(args, cli.verbosity.is_quiet()),
+        Some(Command::Render(args)) => render::run(args, cli.verbosity.is_quiet()),
         Some(Command::Info(args)) => info::run(args),
         None => view::run(&cli.view),
     }

@@ -7,7 +7,7 @@ use std::path::Path;
 
 use glam::Vec3;
 
-use super::picture::extension;
+use super::picture::FileKind;
 use super::{Picture, RenderError};
 use crate::base::colour::{linear_from_srgb, luminance};
 
@@ -21,8 +21,8 @@ pub struct Raster {
     pub size: [u32; 2],
     /// Linear colours.
     pub pixels: Vec<Vec3>,
-    /// What counts as white.
-    pub white: f32,
+    /// Whether they are display colours, whose white is 1, or radiance.
+    pub kind: FileKind,
 }
 
 /// How far a picture is from a reference.
@@ -37,42 +37,62 @@ pub struct Difference {
 }
 
 impl Raster {
+    /// What a file of `kind` would hold of a picture.
+    #[must_use]
+    pub fn of(picture: &Picture, kind: FileKind) -> Self {
+        match kind {
+            FileKind::Display => Self::displayed(picture),
+            FileKind::Radiance => Self::radiance(picture),
+        }
+    }
+
     /// What a picture displays; white is 1.
     #[must_use]
     pub fn displayed(picture: &Picture) -> Self {
         let channel = |byte: u8| linear_from_srgb(f32::from(byte) / 255.0);
         let (pixels, _) = picture.display.as_chunks::<4>();
         let pixels = pixels.iter().map(|&[r, g, b, _]| Vec3::new(channel(r), channel(g), channel(b))).collect();
-        Self { size: [picture.width, picture.height], pixels, white: 1.0 }
+        Self { size: [picture.width, picture.height], pixels, kind: FileKind::Display }
     }
 
-    /// The radiance of a picture; white is five times the mean, a usual exposure.
+    /// The radiance of a picture, before exposure.
     #[must_use]
     pub fn radiance(picture: &Picture) -> Self {
         let pixels = picture.radiance.iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).collect();
-        Self::linear([picture.width, picture.height], pixels)
+        Self { size: [picture.width, picture.height], pixels, kind: FileKind::Radiance }
     }
 
-    /// A picture file: `.exr` as radiance, everything else as displayed.
+    /// A picture file.
     ///
     /// # Errors
-    /// The file is missing or no picture.
+    /// The file is missing, is no picture, or is neither `.png` nor `.exr`.
     pub fn load(path: &Path) -> Result<Self, RenderError> {
+        let kind = FileKind::of(path)?;
         let image = image::open(path).map_err(|cause| RenderError::Read { path: path.to_owned(), cause })?;
         let size = [image.width(), image.height()];
-        let is_radiance = extension(path).as_deref() == Some("exr");
-        let pixels = image.into_rgb32f().pixels().map(|pixel| Vec3::from(pixel.0)).collect();
-        if is_radiance {
-            return Ok(Self::linear(size, pixels));
-        }
-        let decoded = |pixel: Vec3| Vec3::from(pixel.to_array().map(linear_from_srgb));
-        Ok(Self { size, pixels: pixels.into_iter().map(decoded).collect(), white: 1.0 })
+        let stored = image.into_rgb32f().pixels().map(|pixel| Vec3::from(pixel.0)).collect();
+        let pixels = match kind {
+            FileKind::Radiance => stored,
+            FileKind::Display => decoded(stored),
+        };
+        Ok(Self { size, pixels, kind })
     }
 
-    fn linear(size: [u32; 2], pixels: Vec<Vec3>) -> Self {
-        let mean = pixels.iter().map(|&pixel| luminance(pixel)).sum::<f32>() / pixels.len().max(1) as f32;
-        Self { size, pixels, white: (5.0 * mean).max(f32::MIN_POSITIVE) }
+    /// What counts as white: for radiance five times the mean luminance, a usual exposure.
+    fn white(&self) -> f32 {
+        match self.kind {
+            FileKind::Display => 1.0,
+            FileKind::Radiance => {
+                let mean = self.pixels.iter().map(|&pixel| luminance(pixel)).sum::<f32>() / self.pixels.len() as f32;
+                (5.0 * mean).max(f32::MIN_POSITIVE)
+            }
+        }
     }
+}
+
+/// Linear colours of sRGB ones.
+fn decoded(pixels: Vec<Vec3>) -> Vec<Vec3> {
+    pixels.into_iter().map(|pixel| Vec3::from(pixel.to_array().map(linear_from_srgb))).collect()
 }
 
 /// How far `picture` is from `reference`.
@@ -83,19 +103,19 @@ pub fn compare(picture: &Raster, reference: &Raster) -> Result<Difference, Rende
     if picture.size != reference.size {
         return Err(RenderError::SizesDiffer { a: picture.size, b: reference.size });
     }
-    let num_pixels = reference.pixels.len().max(1) as f32;
+    let white = reference.white();
     let (mut error, mut power, mut light, mut reference_light, mut perceptible) = (0.0, 0.0, 0.0, 0.0, 0usize);
     for (&a, &b) in picture.pixels.iter().zip(&reference.pixels) {
         error += f64::from((a - b).length_squared());
         power += f64::from(b.length_squared());
         light += f64::from(luminance(a));
         reference_light += f64::from(luminance(b));
-        perceptible += usize::from(is_perceptible(a, b, reference.white));
+        perceptible += usize::from(is_perceptible(a, b, white));
     }
     Ok(Difference {
         relative_rmse: ratio(error, power).sqrt() as f32,
         mean_difference: ratio(light - reference_light, reference_light) as f32,
-        perceptible_share: perceptible as f32 / num_pixels,
+        perceptible_share: perceptible as f32 / reference.pixels.len().max(1) as f32,
     })
 }
 
@@ -131,7 +151,7 @@ mod tests {
             block * (0.1 + 0.8 * x as f32 / 63.0)
         };
         let pixels = (0..64 * 64).map(|i| colour(i % 64, i / 64)).collect();
-        Raster { size: [64, 64], pixels, white: 1.0 }
+        Raster { size: [64, 64], pixels, kind: FileKind::Display }
     }
 
     fn changed(change: impl Fn(usize, Vec3) -> Vec3) -> Difference {

@@ -19,7 +19,7 @@ mod tonemap;
 pub use compare::{Difference, Raster, compare};
 pub use frame::Renderer;
 pub use look::{Exposure, Look, Shading, ToneMap};
-pub use picture::{Picture, picture, picture_of};
+pub use picture::{FileKind, Picture, picture, picture_of};
 pub use view::View;
 
 use std::path::PathBuf;

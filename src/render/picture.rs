@@ -51,10 +51,7 @@ pub fn picture_of(
     look: &Look,
     samples: u32,
 ) -> Result<Picture, GpuError> {
-    let limit = gpu.device.limits().max_texture_dimension_2d;
-    if size.iter().any(|&side| side == 0 || side > limit) {
-        return Err(GpuError::PictureSize { width: size[0], height: size[1], limit });
-    }
+    check_size(gpu, size)?;
     let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, samples);
     let target = display_target(gpu, size);
     let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
@@ -66,6 +63,18 @@ pub fn picture_of(
     let hdr = renderer.hdr().expect("a picture has just been drawn");
     let radiance = radiance_from_hdr(&read_texture(gpu, hdr, 8)?, scene.pre_exposure);
     Ok(Picture { width: size[0], height: size[1], radiance, display })
+}
+
+/// A picture of this size can be drawn.
+///
+/// # Errors
+/// It cannot.
+pub fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), GpuError> {
+    let limit = gpu.device.limits().max_texture_dimension_2d;
+    if size.iter().all(|side| (1..=limit).contains(side)) {
+        return Ok(());
+    }
+    Err(GpuError::PictureSize { width: size[0], height: size[1], limit })
 }
 
 fn display_target(gpu: &Gpu, size: [u32; 2]) -> wgpu::Texture {
@@ -105,6 +114,30 @@ fn f32_from_half(bits: u16) -> f32 {
     }
 }
 
+/// What a picture file holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FileKind {
+    /// `.png`: the picture as displayed.
+    Display,
+    /// `.exr`: linear radiance before exposure.
+    Radiance,
+}
+
+impl FileKind {
+    /// The kind that a file name asks for.
+    ///
+    /// # Errors
+    /// The name ends in neither `.png` nor `.exr`.
+    pub fn of(path: &Path) -> Result<Self, RenderError> {
+        let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+        match extension.as_deref() {
+            Some("png") => Ok(FileKind::Display),
+            Some("exr") => Ok(FileKind::Radiance),
+            _ => Err(RenderError::UnknownExtension { path: path.to_owned() }),
+        }
+    }
+}
+
 impl Picture {
     /// Writes what is displayed as `.png`, or the linear radiance as `.exr`.
     ///
@@ -113,10 +146,9 @@ impl Picture {
     /// # Errors
     /// The name ends in neither, or the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), RenderError> {
-        match extension(path).as_deref() {
-            Some("png") => write_image(path, image::ImageFormat::Png, &self.displayed()),
-            Some("exr") => write_image(path, image::ImageFormat::OpenExr, &self.linear()),
-            _ => Err(RenderError::UnknownExtension { path: path.to_owned() }),
+        match FileKind::of(path)? {
+            FileKind::Display => write_image(path, image::ImageFormat::Png, &self.displayed()),
+            FileKind::Radiance => write_image(path, image::ImageFormat::OpenExr, &self.linear()),
         }
     }
 
@@ -129,11 +161,6 @@ impl Picture {
         let rgb: Vec<f32> = self.radiance.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
         image::Rgb32FImage::from_raw(self.width, self.height, rgb).expect("three floats a pixel").into()
     }
-}
-
-/// Lower-case extension of a file name.
-pub(super) fn extension(path: &Path) -> Option<String> {
-    path.extension().map(|extension| extension.to_string_lossy().to_lowercase())
 }
 
 fn write_image(path: &Path, format: image::ImageFormat, image: &image::DynamicImage) -> Result<(), RenderError> {

@@ -68,21 +68,27 @@ impl Findings {
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
         let counted = [
-            (self.degenerate_triangles, "triangles have no area; they were dropped, nothing needs to be done"),
-            (self.duplicate_triangles, "triangles lie on top of equal ones; delete doubles in the modeller"),
+            ("triangles without area", self.degenerate_triangles, "they were dropped, nothing needs to be done"),
+            ("duplicate triangles", self.duplicate_triangles, "delete doubles in the modeller"),
             (
+                "open edges",
                 self.open_edges,
-                "edges are open; harmless for free-standing sheets, but close gaps between walls, floor and ceiling",
+                "harmless round free-standing sheets, but close gaps between walls, floor and ceiling",
             ),
-            (self.non_manifold_edges, "edges join more than two triangles; merge or remove inner faces if light leaks"),
             (
-                self.inconsistent_windings,
-                "edges join a front to a back; recalculate normals outwards or make the material double-sided",
+                "edges of more than two triangles",
+                self.non_manifold_edges,
+                "harmless in most scenes, but remove inner faces where light leaks",
             ),
-            (self.missing_textures, "textures are missing and grey instead; put their files beside the scene"),
+            (
+                "edges between a front and a back",
+                self.inconsistent_windings,
+                "recalculate normals outwards, or make the material double-sided",
+            ),
+            ("missing textures", self.missing_textures, "grey is used instead; put their files beside the scene"),
         ];
-        let mut lines: Vec<_> =
-            counted.iter().filter(|(count, _)| *count > 0).map(|(count, what)| format!("{count} {what}")).collect();
+        let found = counted.into_iter().filter(|&(_, count, _)| count > 0);
+        let mut lines: Vec<_> = found.map(|(what, count, advice)| format!("{what}: {count}; {advice}")).collect();
         if self.is_empty {
             lines.push("there are no triangles; check that the right scene was exported".to_owned());
         }
@@ -104,7 +110,7 @@ impl Findings {
     }
 }
 
-/// Mean reflectance [m] of each material, brightest channel: factors times texture means, vertex colours left out.
+/// Mean reflectance of each material, brightest channel: factors times texture means, vertex colours left out.
 #[must_use]
 pub fn mean_reflectances(scene: &Scene) -> Vec<f32> {
     let colour_means: Vec<_> = scene.textures.iter().map(|texture| mean(texture, Texture::sample_srgb)).collect();
@@ -172,5 +178,88 @@ fn count_edges(triangles: &[[u32; 3]], findings: &mut Findings) {
             [first, second] => findings.inconsistent_windings += usize::from(first.2 == second.2),
             _ => findings.non_manifold_edges += 1,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec2, Vec4};
+
+    use super::*;
+    use crate::base::ids::{InstanceId, MaterialId};
+    use crate::scene::{Triangle, Vertex};
+
+    /// A scene of white diffuse triangles over these positions, no vertex shared.
+    fn soup(corners: &[[[f32; 3]; 3]]) -> Scene {
+        let vertex = |position: [f32; 3]| Vertex {
+            position: Vec3::from(position),
+            normal: Vec3::Z,
+            uv: [Vec2::ZERO; 2],
+            colour: Vec4::ONE,
+        };
+        let triangle = |t: usize| Triangle {
+            vertices: [0, 1, 2].map(|c| 3 * t as u32 + c),
+            material: MaterialId(0),
+            instance: InstanceId(0),
+            is_back_side: false,
+        };
+        Scene {
+            vertices: corners.iter().flatten().map(|&position| vertex(position)).collect(),
+            triangles: (0..corners.len()).map(triangle).collect(),
+            materials: vec![Material { name: "white".to_owned(), metallic: 0.0, ..Material::default() }],
+            ..Scene::default()
+        }
+    }
+
+    const O: [f32; 3] = [0.0, 0.0, 0.0];
+    const X: [f32; 3] = [1.0, 0.0, 0.0];
+    const Y: [f32; 3] = [0.0, 1.0, 0.0];
+    const Z: [f32; 3] = [0.0, 0.0, 1.0];
+
+    #[test]
+    fn a_closed_tetrahedron_has_only_its_colour_and_darkness_wrong() {
+        let findings = examine(&soup(&[[O, Y, X], [O, X, Z], [O, Z, Y], [X, Y, Z]]));
+        let expected = Findings { is_dark: true, bright_materials: vec!["white".to_owned()], ..Findings::default() };
+        assert_eq!(findings, expected);
+        assert_eq!(findings.lines().len(), 2);
+    }
+
+    #[test]
+    fn a_missing_face_opens_three_edges() {
+        assert_eq!(examine(&soup(&[[O, Y, X], [O, X, Z], [O, Z, Y]])).open_edges, 3);
+    }
+
+    #[test]
+    fn a_flipped_face_is_wound_against_its_three_neighbours() {
+        let findings = examine(&soup(&[[O, X, Y], [O, X, Z], [O, Z, Y], [X, Y, Z]]));
+        assert_eq!((findings.inconsistent_windings, findings.open_edges), (3, 0));
+    }
+
+    #[test]
+    fn doubles_count_whichever_corner_comes_first_but_backs_do_not() {
+        let mut scene = soup(&[[O, X, Y], [X, Y, O], [O, Y, X]]);
+        let findings = examine(&scene);
+        assert_eq!((findings.duplicate_triangles, findings.non_manifold_edges), (1, 3));
+        scene.triangles[1].is_back_side = true;
+        assert_eq!(examine(&scene).duplicate_triangles, 0);
+    }
+
+    #[test]
+    fn three_sheets_at_an_edge_are_not_a_manifold() {
+        let minus_y = [0.0, -1.0, 0.0];
+        assert_eq!(examine(&soup(&[[O, X, Y], [O, X, Z], [X, O, minus_y]])).non_manifold_edges, 1);
+    }
+
+    #[test]
+    fn a_scene_in_millimetres_is_doubted() {
+        let findings = examine(&soup(&[[O, [4000.0, 0.0, 0.0], [0.0, 3000.0, 0.0]]]));
+        assert_eq!(findings.doubtful_diagonal, Some(5000.0));
+        assert!(findings.lines().iter().any(|line| line.contains("5000.000 m")));
+    }
+
+    #[test]
+    fn an_empty_scene_is_said_to_be_empty() {
+        let findings = examine(&Scene::default());
+        assert!(findings.is_empty && findings.doubtful_diagonal.is_none());
     }
 }

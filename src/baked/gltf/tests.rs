@@ -49,6 +49,8 @@ fn materials() -> Vec<Material> {
     let lamp = Material {
         name: "lamp".into(),
         emission: Vec3::new(100.0, 50.0, 25.0),
+        emissive_texture: Some(slot(0)),
+        metallic_roughness_texture: Some(slot(0)),
         group: Some(GroupId(1)),
         alpha_mode: AlphaMode::Mask { cutoff: 0.3 },
         unlit: true,
@@ -139,4 +141,77 @@ fn the_file_is_valid_gltf_with_shared_vertices_and_sides_apart() {
         })
         .collect();
     assert_eq!(counts, [(Some(0), false, 4, Some(6)), (Some(1), false, 4, Some(6)), (Some(1), true, 3, Some(3))]);
+}
+
+/// The scene as our own loader gives it back.
+fn reloaded(glb: &[u8]) -> Scene {
+    crate::scene::gltf::from_slice("all", glb).expect("our own file loads")
+}
+
+/// Corners of the triangles in file order: those of one primitive side by side.
+fn sorted_triangles(scene: &Scene) -> Vec<&Triangle> {
+    let mut triangles: Vec<&Triangle> = scene.triangles.iter().collect();
+    triangles.sort_by_key(|triangle| (triangle.material, triangle.is_back_side));
+    triangles
+}
+
+#[test]
+fn positions_and_light_come_back_bit_by_bit() {
+    let stored = baked();
+    let Ok(back) = from_scene(reloaded(&to_glb(&stored, 9.5).expect("small"))) else { panic!("the light is lost") };
+    assert_eq!(back.scene.triangles.len(), stored.scene.triangles.len());
+    for (a, b) in sorted_triangles(&stored.scene).into_iter().zip(sorted_triangles(&back.scene)) {
+        assert_eq!((a.material, a.is_back_side), (b.material, b.is_back_side));
+        for (v, w) in a.vertices.map(|v| v as usize).into_iter().zip(b.vertices.map(|v| v as usize)) {
+            assert_eq!(stored.scene.vertices[v], back.scene.vertices[w]);
+            for (stored, back) in stored.light.groups.iter().zip(&back.light.groups) {
+                assert_eq!((stored.direct[v], stored.indirect[v]), (back.direct[w], back.indirect[w]));
+            }
+        }
+    }
+    assert!(back.scene.irradiance.is_empty(), "light is kept once");
+}
+
+#[test]
+fn everything_but_the_mesh_comes_back() {
+    let stored = scene();
+    let back = reloaded(&scene_to_glb(&stored).expect("small"));
+    assert_eq!(back.light_groups, stored.light_groups);
+    assert_eq!(back.textures, stored.textures);
+    assert_eq!(back.lights.len(), stored.lights.len());
+    for (stored, back) in stored.materials.iter().zip(&back.materials) {
+        assert_same_material(stored, back);
+    }
+    for (stored, back) in stored.lights.iter().zip(&back.lights) {
+        assert_eq!((&stored.name, stored.group, stored.range), (&back.name, back.group, back.range));
+        let point = Vec3::new(1.4, 0.5, 1.5);
+        let (stored, back) = (stored.arrival(point), back.arrival(point));
+        assert!((stored.to_light - back.to_light).length() < 1e-6);
+        assert!((stored.irradiance - back.irradiance).length() <= 1e-5 * stored.irradiance.length());
+    }
+    for (stored, back) in stored.cameras.iter().zip(&back.cameras) {
+        assert_eq!((&stored.name, stored.position, stored.projection), (&back.name, back.position, back.projection));
+        assert!((stored.forward() - back.forward()).length() < 1e-6);
+    }
+}
+
+/// Equal but for the rounding of a texture transform, which is stored as scale, angle and offset.
+fn assert_same_material(stored: &Material, back: &Material) {
+    let slots = |material: &Material| {
+        let normal = material.normal_texture.map(|(slot, _)| slot);
+        [material.base_colour_texture, material.metallic_roughness_texture, material.emissive_texture, normal]
+    };
+    for (stored, back) in slots(stored).into_iter().zip(slots(back)) {
+        let at = [Vec2::new(0.3, 0.6), Vec2::new(0.8, 0.1)];
+        let coordinate = |slot: Option<TextureSlot>| slot.map_or(Vec2::ZERO, |slot| slot.coordinate(at));
+        assert!((coordinate(stored) - coordinate(back)).length() < 1e-5);
+    }
+    let without_slots = |material: &Material| Material {
+        base_colour_texture: None,
+        metallic_roughness_texture: None,
+        emissive_texture: None,
+        normal_texture: None,
+        ..material.clone()
+    };
+    assert_eq!(without_slots(stored), without_slots(back));
 }

@@ -41,13 +41,17 @@ impl Builder {
         self.material(Material { emission: radiance, group, ..paint })
     }
 
-    /// A matt surface under a picture that repeats.
-    pub(super) fn textured(&mut self, paint: Material, image: Image) -> MaterialId {
+    /// A texture that repeats.
+    pub(super) fn texture(&mut self, image: Image) -> TextureSlot {
         let sampler = Sampler { wrap_u: Wrap::Repeat, wrap_v: Wrap::Repeat, nearest: false };
         self.scene.textures.push(Texture { image: image.into(), sampler });
         let texture = TextureId::new(self.scene.textures.len() - 1);
-        let slot = TextureSlot { texture, uv_set: 0, transform: glam::Affine2::IDENTITY };
-        self.material(Material { base_colour_texture: Some(slot), ..paint })
+        TextureSlot { texture, uv_set: 0, transform: glam::Affine2::IDENTITY }
+    }
+
+    /// A matt surface with a texture.
+    pub(super) fn textured(&mut self, paint: Material, texture: TextureSlot) -> MaterialId {
+        self.material(Material { base_colour_texture: Some(texture), ..paint })
     }
 
     /// The light group of this name, a new one if need be.

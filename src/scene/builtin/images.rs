@@ -63,7 +63,7 @@ pub(super) fn planks() -> Image {
 pub(super) fn composition() -> Image {
     const COLUMNS: [f32; 3] = [0.22, 0.68, 0.86];
     const ROWS: [f32; 3] = [0.30, 0.62, 0.85];
-    image("composition", [96, 72], |at| {
+    image("composition", [128, 128], |at| {
         let is_bar = |x: f32, bars: [f32; 3]| bars.iter().any(|bar| (x - bar).abs() < 0.014);
         if is_bar(at.x, COLUMNS) || is_bar(at.y, ROWS) {
             return rgb(0x18_18_1a);
@@ -82,7 +82,7 @@ pub(super) fn composition() -> Image {
 /// Rings round two centres.
 pub(super) fn rings() -> Image {
     const PALETTE: [u32; 5] = [0x12_33_4a, 0xe2_7d_2c, 0xf3_e0_b5, 0x2b_7f_82, 0xa6_2b_34];
-    image("rings", [96, 96], |at| {
+    image("rings", [128, 128], |at| {
         let distance = |x: f32, y: f32| (at - Vec2::new(x, y)).length();
         let (near, far) = (distance(0.36, 0.42), distance(0.78, 0.70));
         let ring = if far < 0.21 { (far * 24.0) as usize + 2 } else { (near * 13.0) as usize };
@@ -92,7 +92,7 @@ pub(super) fn rings() -> Image {
 
 /// Two soft fields of colour one above the other.
 pub(super) fn fields() -> Image {
-    image("fields", [64, 96], |at| {
+    image("fields", [64, 128], |at| {
         // How far inside a rectangle with blurred borders: 0 outside, 1 well inside.
         let inside = |low: Vec2, high: Vec2| {
             let depth = (at - low).min(high - at).min_element() + 0.04 * (noise(at * 24.0, [24, 24]) - 0.5);
@@ -107,7 +107,7 @@ pub(super) fn fields() -> Image {
 
 /// Blue hills before a pale sky.
 pub(super) fn hills() -> Image {
-    image("hills", [128, 80], |at| {
+    image("hills", [128, 128], |at| {
         let sky = rgb(0xf4_e3_c3).lerp(rgb(0x9d_c3_d6), 1.0 - at.y);
         let sun = (at * Vec2::new(1.6, 1.0) - Vec2::new(1.15, 0.30)).length();
         let sky = if sun < 0.09 { rgb(0xff_f4_dc) } else { sky };

@@ -36,21 +36,22 @@ fn split_glb(bytes: &[u8]) -> Result<Glb<'_>, Cause> {
     if expected > bytes.len() {
         return Err(Cause::CutOff { expected, found: bytes.len() });
     }
-    if expected < GLB_HEADER_BYTES {
-        return Err(Cause::NotGltf(format!("its header gives a length of {expected} bytes")));
-    }
-    Glb::from_slice(&bytes[..expected]).map_err(|error| Cause::NotGltf(format!("broken .glb container: {error}")))
+    // Cut to its length, a header that promises less than itself is too short to be read.
+    Glb::from_slice(&bytes[..expected]).map_err(|error| match error {
+        gltf::Error::Binary(gltf::binary::Error::Io(_)) => Cause::NotGltf("its last chunk is cut off".to_owned()),
+        error => Cause::NotGltf(format!("broken .glb container: {error}")),
+    })
 }
 
 fn parse_json(bytes: &[u8]) -> Result<Root, Cause> {
-    let not_gltf = |error: serde_json::Error| Cause::NotGltf(error.to_string());
-    let mut json: Value = serde_json::from_slice(without_byte_order_mark(bytes)).map_err(not_gltf)?;
+    let mut json: Value = serde_json::from_slice(without_byte_order_mark(bytes))
+        .map_err(|error| Cause::NotGltf(format!("no valid JSON, {error}")))?;
     let version = json.pointer("/asset/version").and_then(Value::as_str).unwrap_or("unknown");
     if !version.starts_with("2.") {
         return Err(Cause::Version(format!("{version:?}")));
     }
     be_lenient(&mut json);
-    serde_json::from_value(json).map_err(not_gltf)
+    serde_json::from_value(json).map_err(|error| Cause::NotGltf(error.to_string()))
 }
 
 fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {

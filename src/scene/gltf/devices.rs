@@ -77,3 +77,69 @@ fn frame(world_from_node: DAffine3) -> DMat3 {
     let x = across.try_normalize().unwrap_or_else(|| z.any_orthonormal_vector());
     DMat3::from_cols(x, z.cross(x), z)
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::super::fixture::Fixture;
+    use super::*;
+    use crate::scene::Scene;
+
+    fn scene_with_light(light: Value, node: Value) -> Scene {
+        let mut fixture = Fixture::triangle();
+        fixture.json["extensions"] = json!({"KHR_lights_punctual": {"lights": [light]}});
+        fixture.json["nodes"][0] = node;
+        fixture.json["nodes"][0]["extensions"] = json!({"KHR_lights_punctual": {"light": 0}});
+        fixture.load()
+    }
+
+    #[test]
+    fn a_spot_shines_along_minus_z_of_its_node_whatever_the_scale() {
+        // A quarter turn about +X brings -Z to +Y.
+        let half = std::f32::consts::FRAC_1_SQRT_2;
+        let node = json!({"translation": [1, 2, 3], "rotation": [half, 0, 0, half], "scale": [2, 3, 4]});
+        let light = json!({"type": "spot", "intensity": 10, "color": [1, 0.5, 0], "range": 8,
+            "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.4}});
+        let scene = scene_with_light(light, node);
+        let LightKind::Spot { position, direction, inner_angle, outer_angle } = scene.lights[0].kind else {
+            panic!("not a spot");
+        };
+        assert_eq!(position, Vec3::new(1.0, 2.0, 3.0));
+        assert!((direction - Vec3::Y).length() < 1e-6, "{direction}");
+        assert_eq!((inner_angle, outer_angle), (0.2, 0.4));
+        assert_eq!(scene.lights[0].intensity, Vec3::new(10.0, 5.0, 0.0));
+        assert_eq!(
+            (scene.lights[0].range, scene.light_groups.as_slice()),
+            (Some(8.0), ["light 0".to_owned()].as_slice())
+        );
+    }
+
+    #[test]
+    fn impossible_cones_are_brought_inside_the_limits() {
+        let light = json!({"type": "spot", "spot": {"innerConeAngle": 3, "outerConeAngle": 2}});
+        let LightKind::Spot { inner_angle, outer_angle, .. } = scene_with_light(light, json!({})).lights[0].kind else {
+            panic!("not a spot");
+        };
+        assert!(inner_angle <= outer_angle && outer_angle <= std::f32::consts::FRAC_PI_2);
+    }
+
+    #[test]
+    fn a_dark_light_is_left_out() {
+        let scene = scene_with_light(json!({"type": "point", "intensity": 0}), json!({}));
+        assert!(scene.lights.is_empty() && scene.light_groups.is_empty());
+        assert!(scene.notes[0].contains("no intensity"), "{:?}", scene.notes);
+    }
+
+    #[test]
+    fn a_camera_looks_along_minus_z_even_in_a_mirrored_node() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["cameras"] = json!([{"type": "perspective", "perspective": {"yfov": 1.0, "znear": 0.1}}]);
+        fixture.json["nodes"][0] = json!({"camera": 0, "scale": [-1, 1, 1], "translation": [0, 1, 0]});
+        let camera = &fixture.load().cameras[0];
+        assert_eq!((camera.name.as_str(), camera.position), ("camera 0", Vec3::Y));
+        assert!((camera.forward() - Vec3::NEG_Z).length() < 1e-6, "{}", camera.forward());
+        assert!((camera.world_from_view * Vec3::Y - Vec3::Y).length() < 1e-6);
+        assert_eq!(camera.projection, Projection::Perspective { fov_y: 1.0 });
+    }
+}

@@ -55,7 +55,7 @@ impl<'a> Attributes<'a> {
     /// COLOR_0 as RGBA; integers are fractions of their largest value.
     fn colours(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
         let Some(reader) = self.reader(Semantic::Colors(0))? else { return Ok(None) };
-        let reader = if reader.is_integer() { reader.as_fractions() } else { reader };
+        let reader = if reader.is_integer() { reader.into_fractions() } else { reader };
         let colours = if reader.width() == 3 {
             reader.vectors(rows)?.into_iter().map(|rgb| Vec3::from(rgb).extend(1.0)).collect()
         } else {
@@ -162,4 +162,97 @@ fn keep_used(triangles: &mut [[u32; 3]], num_vertices: usize) -> Result<Vec<u32>
 fn says_back_side(extras: &Extras) -> bool {
     let value = extras.as_ref().and_then(|raw| serde_json::from_str::<serde_json::Value>(raw.get()).ok());
     value.is_some_and(|value| value["back_side"] == true)
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::super::fixture::Fixture;
+    use super::*;
+    use crate::base::ids::TriangleId;
+    use crate::scene::{Scene, normal_of};
+
+    /// A unit square in the xy plane, as strip order wants it, with normals along +Z.
+    fn square() -> Fixture {
+        let mut fixture = Fixture::new();
+        fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
+        fixture.floats("NORMAL", "VEC3", &[0.0, 0.0, 1.0].repeat(4));
+        fixture
+    }
+
+    fn assert_faces_plus_z(scene: &Scene, area: f64) {
+        assert!((scene.area() - area).abs() < 1e-6, "area {}", scene.area());
+        for t in 0..scene.triangles.len() {
+            assert_eq!(normal_of(scene.corners(TriangleId::new(t))), Vec3::Z, "triangle {t}");
+        }
+    }
+
+    #[test]
+    fn triangles_need_no_indices() {
+        assert_faces_plus_z(&Fixture::triangle().load(), 0.5);
+    }
+
+    #[test]
+    fn every_other_triangle_of_a_strip_is_turned() {
+        let mut fixture = square();
+        fixture.primitive()["mode"] = json!(5);
+        assert_faces_plus_z(&fixture.load(), 1.0);
+    }
+
+    #[test]
+    fn a_fan_goes_round_its_first_vertex() {
+        let mut fixture = square();
+        fixture.primitive()["mode"] = json!(6);
+        fixture.indices(&[0, 1, 3, 2]);
+        assert_faces_plus_z(&fixture.load(), 1.0);
+    }
+
+    #[test]
+    fn unused_vertices_are_left_out_and_the_rest_keep_their_order() {
+        let mut fixture = square();
+        fixture.indices(&[3, 2, 1]);
+        let scene = fixture.load();
+        assert_eq!(scene.vertices.len(), 3);
+        assert_eq!(scene.triangles[0].vertices, [2, 1, 0]);
+        assert_eq!(scene.vertices[0].position, Vec3::X);
+    }
+
+    #[test]
+    fn an_index_without_a_vertex_names_its_accessor() {
+        let mut fixture = square();
+        fixture.indices(&[0, 1, 4]);
+        assert!(fixture.error().contains("accessor 2: index 4 points at no vertex"), "{}", fixture.error());
+    }
+
+    #[test]
+    fn lines_and_missing_positions_are_noted() {
+        let mut fixture = square();
+        fixture.primitive()["mode"] = json!(1);
+        let scene = fixture.load();
+        assert!(scene.triangles.is_empty() && scene.notes[0].contains("points or lines"), "{:?}", scene.notes);
+    }
+
+    #[test]
+    fn broken_topologies_give_no_triangles() {
+        assert!(triangulate(Mode::TriangleFan, &[]).is_empty());
+        assert!(triangulate(Mode::TriangleStrip, &[0, 1]).is_empty());
+        assert_eq!(triangulate(Mode::Triangles, &[0, 1, 2, 3]).len(), 1);
+    }
+
+    #[test]
+    fn stored_light_and_back_sides_are_recognised() {
+        let mut fixture = Fixture::triangle();
+        fixture.floats("_IRRADIANCE_DIRECT_0", "VEC3", &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+        fixture.primitive()["extras"] = json!({"back_side": true});
+        let mut plain = fixture.json["meshes"][0]["primitives"][0].clone();
+        plain["attributes"].as_object_mut().expect("an object").remove("_IRRADIANCE_DIRECT_0");
+        plain["extras"] = json!(null);
+        fixture.json["meshes"][0]["primitives"] = json!([plain, fixture.json["meshes"][0]["primitives"][0]]);
+        let scene = fixture.load();
+        assert_eq!(scene.irradiance[0].name, "_IRRADIANCE_DIRECT_0");
+        assert_eq!(scene.irradiance[0].values[2..4], [Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)]);
+        assert_eq!(scene.irradiance[0].values.len(), scene.vertices.len());
+        assert_eq!([false, true], [0, 1].map(|t: usize| scene.triangles[t].is_back_side));
+    }
 }

@@ -8,7 +8,10 @@ use crate::base::ids::GroupId;
 use crate::scene::{Light, LightKind, Material, Scene, area_of};
 
 /// Most groups of a scene: each costs memory at every vertex.
-const MAX_GROUPS: usize = 8;
+pub(super) const MAX_GROUPS: usize = 8;
+
+/// Name of the group for all that has none of its own.
+pub(super) const OTHERS: &str = "other lights";
 
 /// Something that shines, in the order of groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,7 +37,7 @@ pub(super) fn assign(scene: &mut Scene, definitions: &[usize], names: &[Option<S
         scene.light_groups.push(unused_name(&name, &scene.light_groups));
     }
     if own.len() < flux.len() {
-        scene.light_groups.push("other lights".to_owned());
+        scene.light_groups.push(OTHERS.to_owned());
     }
     let group_of = |source| GroupId::new(own.iter().position(|&s| s == source).unwrap_or(own.len()));
     for (light, &definition) in scene.lights.iter_mut().zip(definitions) {
@@ -129,7 +132,7 @@ mod tests {
         assign(&mut scene, &[0, 1, 2, 3, 4, 5, 6, 7, 8], &[]);
         assert_eq!(scene.light_groups.len(), 8);
         assert_eq!(scene.light_groups[0], "lamp 5");
-        assert_eq!(scene.light_groups[7], "other lights");
+        assert_eq!(scene.light_groups[7], OTHERS);
         assert_eq!((scene.lights[1].group, scene.lights[6].group), (GroupId(7), GroupId(7)));
     }
 

@@ -1,15 +1,17 @@
 //! The only place that knows glTF input: a .gltf or .glb file becomes a validated [`Scene`].
 //!
-//! The route: bytes -> [`container`] (JSON and blob) -> [`document`] (buffers, checked look-ups) -> [`material`] and
-//! [`texture`] -> [`nodes`] (the tree; [`geometry`] read through [`accessor`], then [`place`]d in the world) ->
-//! [`groups`]. The gltf crate gives the typed JSON only: its accessors and its importer can panic on broken files, ours
-//! check every range, so that any file either loads or ends in one [`LoadError`].
+//! The route: bytes -> `container` (JSON and blob) -> `document` (buffers, checked look-ups) -> `tree` (flattened nodes,
+//! held against a `budget`) -> `material` and `texture` -> `populate` (`geometry` read through `accessor`, then `place`d
+//! in the world; `devices`: lights and cameras) -> `groups`, or `stated_groups` where the file has its own. The gltf crate
+//! gives the typed JSON only: its accessors and its importer can panic on broken files, ours check every range, so that
+//! any file either loads or ends in one [`LoadError`].
 //!
 //! Deliberately absent: animation, skinning, morphing, and compressed geometry (Draco, meshopt).
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification" (ISO/IEC 12113:2022) and its extension registry.
 
 mod accessor;
+mod budget;
 mod container;
 mod devices;
 mod document;
@@ -20,21 +22,22 @@ mod fixture;
 mod geometry;
 mod groups;
 mod material;
-mod nodes;
 mod place;
+mod populate;
 mod resource;
+mod stated_groups;
 mod texture;
+mod tree;
 
 use std::path::{Path, PathBuf};
 
-use glam::DAffine3;
 use gltf::json::{Index, Node, Root};
 
 pub use error::{Cause, LoadError};
 
 use self::document::Document;
 use self::material::MaterialReader;
-use self::nodes::Walk;
+use self::populate::Population;
 use self::texture::TextureTable;
 use crate::scene::{MAX_REFLECTANCE, Scene, doctor};
 
@@ -78,14 +81,16 @@ fn read_scene(name: String, bytes: &[u8], folder: Option<&Path>, wanted: Option<
     let document = Document::parse(bytes, folder)?;
     let mut scene = Scene { name, ..Scene::default() };
     scene.notes.extend(extension::check(&document.root)?);
+    let nodes = tree::flatten(&document, &root_nodes(&document, wanted)?)?;
+    budget::check(&document, &nodes)?;
     read_materials(&document, &mut scene)?;
 
-    let mut walk = Walk::new(&document, scene);
-    for root in root_nodes(&document, wanted)? {
-        walk.visit(root, DAffine3::IDENTITY, 0)?;
+    let mut population = Population::new(&document, scene);
+    nodes.iter().try_for_each(|node| population.add(node))?;
+    let (mut scene, light_definitions) = population.finish();
+    if !stated_groups::assign(&mut scene, &light_definitions, &document.root) {
+        groups::assign(&mut scene, &light_definitions, &light_names(&document.root));
     }
-    let (mut scene, light_definitions) = walk.finish();
-    groups::assign(&mut scene, &light_definitions, &light_names(&document.root));
     note_bright_materials(&mut scene);
     Ok(scene)
 }
@@ -148,6 +153,55 @@ fn note_bright_materials(scene: &mut Scene) {
             scene
                 .notes
                 .push(format!("material {name:?} reflects {reflectance:.2}; it is clamped to {MAX_REFLECTANCE}"));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::fixture::Fixture;
+    use super::*;
+
+    #[test]
+    fn a_scene_is_chosen_by_name_or_index() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["scenes"] = json!([{"nodes": [0]}, {"name": "empty"}]);
+        let folder = tempfile::tempdir().expect("a folder for the test");
+        let file = folder.path().join("two.gltf");
+        std::fs::write(&file, fixture.to_bytes()).expect("it can be written");
+        let load_part = |part: &str| load(Path::new(&format!("{}{part}", file.display())));
+        let triangles = |part: &str| load_part(part).expect("there is such a scene").triangles.len();
+        assert_eq!([triangles(""), triangles("#0"), triangles("#1"), triangles("#empty")], [1, 1, 0, 0]);
+        let error = load_part("#attic").expect_err("there is no such scene").to_string();
+        assert!(error.ends_with("it has no scene \"attic\"; there is #0, #1 \"empty\""), "{error}");
+    }
+
+    #[test]
+    fn without_scenes_all_roots_are_shown() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"] = json!([{"mesh": 0}, {"children": [0]}, {"mesh": 0}]);
+        let root = fixture.json.as_object_mut().expect("an object");
+        root.remove("scene");
+        root.remove("scenes");
+        assert_eq!(fixture.load().triangles.len(), 2);
+    }
+
+    #[test]
+    fn indices_that_point_nowhere_say_who_and_what() {
+        let cases = [
+            ("/scene", json!(7), "the file refers to scene 7"),
+            ("/scenes/0/nodes/0", json!(7), "the node tree refers to node 7"),
+            ("/nodes/0/mesh", json!(7), "node 0 refers to mesh 7"),
+            ("/meshes/0/primitives/0/attributes/POSITION", json!(7), "mesh 0, primitive 0 refers to accessor 7"),
+            ("/accessors/0/bufferView", json!(7), "accessor 0 refers to buffer view 7"),
+            ("/bufferViews/0/buffer", json!(7), "buffer view 0 refers to buffer 7"),
+        ];
+        for (place, value, expected) in cases {
+            let mut fixture = Fixture::triangle();
+            *fixture.json.pointer_mut(place).expect("the place exists") = value;
+            assert!(fixture.error().contains(expected), "{}", fixture.error());
         }
     }
 }

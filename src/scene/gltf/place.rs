@@ -7,9 +7,6 @@ use super::geometry::Geometry;
 use crate::base::ids::{InstanceId, MaterialId};
 use crate::scene::{Instance, Scene, Triangle, Vertex, VertexAttribute, edge_cross, normal_of};
 
-/// Most vertices or triangles of a scene: about 6 GB.
-const MAX_COUNT: usize = 100_000_000;
-
 /// Largest coordinate that is taken for meant, metres.
 const MAX_COORDINATE: f32 = 1e9;
 
@@ -26,7 +23,6 @@ pub(super) fn place(
 ) -> Result<(), Cause> {
     let corners = corner_indices(geometry);
     let sources = vertex_sources(geometry);
-    check_room(scene, sources.len(), corners.len())?;
     let first = scene.vertices.len();
     add_vertices(scene, geometry, &sources, world_from_mesh, &name)?;
     add_irradiance(scene, geometry, &sources, first);
@@ -68,15 +64,6 @@ fn corner_indices(geometry: &Geometry) -> Vec<[u32; 3]> {
     } else {
         (0..geometry.triangles.len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect()
     }
-}
-
-fn check_room(scene: &Scene, more_vertices: usize, more_triangles: usize) -> Result<(), Cause> {
-    let vertices = scene.vertices.len() + more_vertices;
-    let triangles = scene.triangles.len() + more_triangles;
-    if vertices.max(triangles) > MAX_COUNT {
-        return Err(Cause::TooLarge(format!("more than {MAX_COUNT} vertices or triangles, all instances counted")));
-    }
-    Ok(())
 }
 
 fn add_vertices(
@@ -138,5 +125,86 @@ fn give_missing_normals(scene: &mut Scene, vertices: [u32; 3], normal: Vec3) {
         if vertex.normal == Vec3::ZERO {
             vertex.normal = normal;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::super::fixture::Fixture;
+    use super::*;
+    use crate::base::ids::TriangleId;
+
+    fn front_normal(scene: &Scene) -> Vec3 {
+        normal_of(scene.corners(TriangleId(0)))
+    }
+
+    #[test]
+    fn a_mirrored_node_keeps_fronts_in_front() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"][0]["scale"] = json!([-1, 1, 1]);
+        let scene = fixture.load();
+        assert_eq!(scene.vertices[1].position, Vec3::NEG_X);
+        assert_eq!(front_normal(&scene), Vec3::Z);
+        assert_eq!(scene.vertices[0].normal, Vec3::Z);
+    }
+
+    #[test]
+    fn normals_stay_perpendicular_under_non_uniform_scale() {
+        let mut fixture = Fixture::new();
+        fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0]);
+        fixture.floats("NORMAL", "VEC3", &[1.0, 1.0, 0.0].repeat(3));
+        fixture.json["nodes"][0]["matrix"] = json!([4, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 7, 0, 0, 1]);
+        let scene = fixture.load();
+        assert_eq!(scene.vertices[0].position.x, 7.0);
+        assert!((scene.vertices[0].normal - front_normal(&scene)).length() < 1e-6, "{}", scene.vertices[0].normal);
+    }
+
+    #[test]
+    fn missing_normals_are_flat() {
+        let mut fixture = Fixture::new();
+        fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
+        fixture.indices(&[0, 1, 2, 0, 3, 1]);
+        let scene = fixture.load();
+        assert_eq!(scene.vertices.len(), 6);
+        assert!(scene.vertices[..3].iter().all(|vertex| vertex.normal == Vec3::Z));
+        assert!(scene.vertices[3..].iter().all(|vertex| vertex.normal == Vec3::Y));
+    }
+
+    #[test]
+    fn zero_normals_take_the_normal_of_the_face() {
+        let mut fixture = Fixture::triangle();
+        fixture.floats("NORMAL", "VEC3", &[0.0; 9]);
+        assert!(fixture.load().vertices.iter().all(|vertex| vertex.normal == Vec3::Z));
+    }
+
+    #[test]
+    fn triangles_without_area_are_dropped_and_counted() {
+        let mut fixture = Fixture::triangle();
+        fixture.indices(&[0, 1, 1, 0, 1, 2]);
+        let scene = fixture.load();
+        assert_eq!((scene.triangles.len(), scene.dropped_triangles), (1, 1));
+        assert!(scene.notes.iter().any(|note| note.contains("without area")), "{:?}", scene.notes);
+    }
+
+    #[test]
+    fn instances_share_a_mesh_and_keep_their_triangles_together() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"] =
+            json!([{"mesh": 0, "name": "left", "children": [1]}, {"mesh": 0, "translation": [5, 0, 0]}]);
+        let scene = fixture.load();
+        assert_eq!(scene.instances.len(), 2);
+        assert_eq!((scene.instances[0].name.as_str(), scene.instances[1].triangles.clone()), ("left", 1..2));
+        assert_eq!(scene.vertices[3].position.x, 5.0);
+    }
+
+    #[test]
+    fn a_transform_out_of_this_world_is_refused() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["nodes"][0]["scale"] = json!([1e30, 1, 1]);
+        assert!(fixture.error().contains("vertex position"), "{}", fixture.error());
+        fixture.json["nodes"][0]["scale"] = json!([1e300, 1, 1]);
+        assert!(fixture.error().contains("transform of node 0"), "{}", fixture.error());
     }
 }

@@ -21,6 +21,9 @@ use crate::scene::{Image, Sampler, Texture, Wrap};
 /// Largest image side that is decoded, pixels.
 const MAX_IMAGE_SIDE: u32 = 16_384;
 
+/// Memory of the largest image.
+const MAX_IMAGE_BYTES: u64 = 4 * (MAX_IMAGE_SIDE as u64).pow(2);
+
 /// Textures in the order in which materials first asked for them.
 #[derive(Default)]
 pub(super) struct TextureTable {
@@ -130,6 +133,7 @@ fn decode(encoded: &[u8]) -> Result<(ImageFormat, image::RgbaImage), String> {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_IMAGE_SIDE);
     limits.max_image_height = Some(MAX_IMAGE_SIDE);
+    limits.max_alloc = Some(MAX_IMAGE_BYTES);
     let mut reader = ImageReader::with_format(Cursor::new(encoded), format);
     reader.limits(limits);
     let pixels = reader.decode().map_err(|error| format!("it cannot be decoded: {error}"))?;
@@ -154,5 +158,72 @@ fn wrap(mode: &Checked<WrappingMode>) -> Wrap {
         Checked::Valid(WrappingMode::ClampToEdge) => Wrap::Clamp,
         Checked::Valid(WrappingMode::MirroredRepeat) => Wrap::Mirror,
         Checked::Valid(WrappingMode::Repeat) | Checked::Invalid => Wrap::Repeat,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec2;
+    use serde_json::json;
+
+    use super::super::fixture::Fixture;
+    use super::*;
+
+    #[test]
+    fn images_keep_their_pixels_and_their_file() {
+        let mut fixture = Fixture::triangle();
+        let texture = fixture.texture(&[[255, 0, 0, 255], [0, 0, 255, 128]]);
+        fixture.json["samplers"] = json!([{"magFilter": 9728, "wrapS": 33071, "wrapT": 33648}]);
+        fixture.json["textures"][texture]["sampler"] = json!(0);
+        fixture.material(json!({"emissiveTexture": {"index": texture}}));
+        let texture = &fixture.load().textures[0];
+        assert_eq!((texture.image.width, texture.image.height), (2, 1));
+        assert_eq!(texture.image.mime_type, "image/png");
+        assert_eq!(texture.image.encoded[1..4], *b"PNG");
+        assert_eq!(texture.sampler, Sampler { wrap_u: Wrap::Clamp, wrap_v: Wrap::Mirror, nearest: true });
+        assert_eq!(texture.sample_linear(Vec2::new(0.9, 0.5)).to_array(), [0.0, 0.0, 1.0, 128.0 / 255.0]);
+    }
+
+    #[test]
+    fn an_image_is_loaded_once_for_many_textures() {
+        let mut fixture = Fixture::triangle();
+        fixture.texture(&[[9; 4]]);
+        fixture.json["textures"] = json!([{"source": 0}, {"source": 0}]);
+        let base = json!({"baseColorTexture": {"index": 1}});
+        fixture.material(json!({"emissiveTexture": {"index": 0}, "pbrMetallicRoughness": base}));
+        let scene = fixture.load();
+        assert!(Arc::ptr_eq(&scene.textures[0].image, &scene.textures[1].image));
+    }
+
+    #[test]
+    fn an_image_that_cannot_be_had_turns_grey_with_a_note() {
+        let images = [
+            (json!({"uri": "no_such.png"}), "no folder"),
+            (json!({"uri": "data:image/png;base64,AAAA"}), "neither PNG nor JPEG"),
+            (json!({"uri": "data:image/webp;base64,UklGRgQAAABXRUJQVlA4IAAA"}), "WebP is not supported; convert"),
+            (json!({"uri": "http://example.org/a.png"}), "refused"),
+            (json!({}), "neither a URI nor a buffer view"),
+            (json!({"bufferView": 99}), "buffer view 99, which does not exist"),
+        ];
+        for (image, expected) in images {
+            let mut fixture = Fixture::triangle();
+            fixture.json["images"] = json!([image]);
+            fixture.json["textures"] = json!([{"source": 0}]);
+            let info = json!({"index": 0});
+            fixture.material(json!({"normalTexture": info, "pbrMetallicRoughness": {"baseColorTexture": info}}));
+            let scene = fixture.load();
+            assert!(scene.notes[0].contains(expected), "{:?} should say {expected:?}", scene.notes);
+            assert_eq!(scene.textures[0].image.rgba, [128, 128, 128, 255]);
+            assert!(scene.materials[0].base_colour_texture.is_some() && scene.materials[0].normal_texture.is_none());
+        }
+    }
+
+    #[test]
+    fn a_texture_that_exists_only_as_an_extension_is_noted() {
+        let mut fixture = Fixture::triangle();
+        fixture.json["textures"] = json!([{"extensions": {"KHR_texture_basisu": {"source": 0}}}]);
+        fixture.material(json!({"emissiveTexture": {"index": 0}}));
+        let notes = fixture.load().notes;
+        assert!(notes[0].contains("KHR_texture_basisu") && notes[0].contains("ktxdecompress"), "{notes:?}");
     }
 }

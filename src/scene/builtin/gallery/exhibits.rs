@@ -35,22 +35,23 @@ fn standing_torus() -> Shape {
 
 /// Framed pictures on the walls.
 pub(super) fn pictures(builder: &mut Builder, finishes: &Finishes) {
-    let frame = finishes.black;
+    let [composition, rings, fields, hills] =
+        [images::composition(), images::rings(), images::fields(), images::hills()].map(|image| builder.texture(image));
     // Name, image, size, middle on the wall, and how often it is turned by 90 degrees from facing south.
     let hung = [
-        ("composition", images::composition(), [1.20, 0.90], [1.5, 1.65, 0.0], 0),
-        ("rings", images::rings(), [1.10, 1.10], [3.4, 1.65, 0.0], 0),
-        ("fields", images::fields(), [0.90, 1.35], [5.0, 1.70, 0.0], 0),
-        ("hills", images::hills(), [2.24, 1.40], [10.2, 2.75, 3.6], 3),
-        ("study in circles", images::rings(), [0.80, 0.80], [-2.2, 1.60, 0.0], 0),
-        ("evening", images::fields(), [0.80, 1.20], [-4.6, 1.60, 5.7], 2),
+        ("composition", composition, [1.20, 0.90], [1.5, 1.65, 0.0], 0),
+        ("rings", rings, [1.10, 1.10], [3.4, 1.65, 0.0], 0),
+        ("fields", fields, [0.90, 1.35], [5.0, 1.70, 0.0], 0),
+        ("hills", hills, [2.24, 1.40], [10.2, 2.75, 3.6], 3),
+        ("study in circles", rings, [0.80, 0.80], [-2.2, 1.60, 0.0], 0),
+        ("evening", fields, [0.80, 1.20], [-4.6, 1.60, 5.7], 2),
     ];
     for (name, image, size, middle, turns) in hung {
         let place = |shape: Shape| shape.quarter_turned(turns).moved(Vec3::from(middle));
-        let canvas = builder.textured(paint(name, [0.9; 3]), image);
         let size = Vec2::from(size);
-        builder.place(name, canvas, place(self::canvas(size)));
-        builder.place(&format!("frame of {name}"), frame, place(self::frame(size)));
+        let material = builder.textured(paint(name, [0.9; 3]), image);
+        builder.place(name, material, place(canvas(size)));
+        builder.place(&format!("frame of {name}"), finishes.black, place(frame(size)));
     }
 }
 

@@ -38,13 +38,14 @@ pub(super) struct Finishes {
 
 impl Finishes {
     pub(super) fn new(builder: &mut Builder) -> Self {
+        let planks = builder.texture(images::planks());
         Self {
             white: builder.material(paint("warm white", [0.82, 0.80, 0.75])),
             ceiling: builder.material(paint("ceiling white", [0.85, 0.85, 0.83])),
             red: builder.material(paint("deep red", [0.52, 0.045, 0.035])),
             blue_green: builder.material(paint("blue-green", [0.05, 0.33, 0.34])),
-            oak: builder.textured(paint("oak", [1.0, 1.0, 1.0]), images::planks()),
-            walnut: builder.textured(paint("walnut", [0.62, 0.50, 0.42]), images::planks()),
+            oak: builder.textured(paint("oak", [1.0; 3]), planks),
+            walnut: builder.textured(paint("walnut", [0.62, 0.50, 0.42]), planks),
             stone: builder.material(paint("limestone", [0.66, 0.62, 0.54])),
             plaster: builder.material(paint("plaster", [0.84, 0.83, 0.80])),
             bronze: builder.material(paint("bronze", [0.42, 0.27, 0.13])),

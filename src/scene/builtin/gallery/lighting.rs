@@ -71,7 +71,7 @@ pub(super) fn spot(builder: &mut Builder, finishes: &Finishes) {
     // The light sits in the open mouth of the tube; the tube's axis is -Y before it is turned.
     let tube = [(0.045, 0.0), (0.06, 0.0), (0.06, 0.16), (0.0, 0.16)].map(Vec2::from);
     let bore = [(0.0, 0.02), (0.045, 0.02), (0.045, 0.0)].map(Vec2::from);
-    let housing = lathe(&tube, 12).join(lathe(&bore, 12).inside_out());
+    let housing = lathe(&tube, 12).join(lathe(&bore, 12));
     let housing = housing.turned(Quat::from_rotation_arc(Vec3::NEG_Y, direction)).moved(position);
     builder.place("spot housing", finishes.black, housing);
     let top = position - direction * 0.10;

@@ -27,7 +27,7 @@ pub fn gallery() -> Scene {
     exhibits::sculptures(&mut builder, &finishes);
     exhibits::pictures(&mut builder, &finishes);
     exhibits::bench(&mut builder, &finishes);
-    builder.camera("entrance", [0.5, 1.6, 4.2], [8.1, 1.45, 3.0], 60.0);
+    builder.camera("entrance", [0.4, 1.6, 3.9], [8.1, 1.45, 3.1], 60.0);
     builder.camera("stairs", [9.6, 2.62, 1.9], [2.4, 0.5, 4.7], 60.0);
     builder.camera("red room", [-0.9, 1.6, 5.0], [-5.0, 1.35, 1.9], 60.0);
     builder.camera("detail", [-4.25, 1.6, 2.35], [-5.6, 1.2, 1.1], 50.0);

@@ -1,29 +1,26 @@
-//! The node tree, walked once: meshes are placed, lights and cameras taken along; the tree itself is not kept.
+//! What hangs on the nodes: meshes are placed, lights and cameras taken along; the tree itself is not kept.
 
 use std::collections::HashMap;
 
-use glam::{DAffine3, DMat4, DQuat, DVec3};
+use glam::DAffine3;
 use gltf::json::mesh::Mesh;
 use gltf::json::{Index, Node};
 
 use super::document::Document;
 use super::error::Cause;
 use super::geometry::Geometry;
+use super::tree::PlacedNode;
 use super::{devices, place};
 use crate::base::ids::MaterialId;
 use crate::scene::{Material, Scene};
 
-/// Deepest node tree that is walked.
-const MAX_DEPTH: usize = 256;
-
-/// Walks the tree and fills a scene whose materials are there already.
-pub(super) struct Walk<'a> {
+/// Fills a scene whose materials are there already.
+pub(super) struct Population<'a> {
     document: &'a Document<'a>,
     scene: Scene,
     light_definitions: Vec<usize>,
     geometries: HashMap<(usize, usize), Option<Geometry>>,
     default_material: Option<MaterialId>,
-    is_visited: Vec<bool>,
     oddities: Oddities,
 }
 
@@ -35,8 +32,8 @@ struct Oddities {
     skinned: usize,
 }
 
-impl<'a> Walk<'a> {
-    /// Ready to visit root nodes.
+impl<'a> Population<'a> {
+    /// Ready to add nodes.
     pub fn new(document: &'a Document<'a>, scene: Scene) -> Self {
         Self {
             document,
@@ -44,42 +41,24 @@ impl<'a> Walk<'a> {
             light_definitions: Vec::new(),
             geometries: HashMap::new(),
             default_material: None,
-            is_visited: vec![false; document.root.nodes.len()],
             oddities: Oddities::default(),
         }
     }
 
-    /// Places a node and everything below it.
-    pub fn visit(&mut self, index: Index<Node>, world_from_parent: DAffine3, depth: usize) -> Result<(), Cause> {
-        let document = self.document;
-        let node = document.find(index, "node", || "the node tree".to_owned())?;
-        if depth > MAX_DEPTH {
-            return Err(Cause::TooDeep(MAX_DEPTH));
-        }
-        if std::mem::replace(&mut self.is_visited[index.value()], true) {
-            return Err(Cause::NodeTwice(index.value()));
-        }
-        if is_hidden(node) {
-            return Ok(());
-        }
+    /// Adds what hangs on a node.
+    pub fn add(&mut self, placed: &PlacedNode<'_>) -> Result<(), Cause> {
+        let PlacedNode { index, node, world_from_node } = *placed;
         let user = || format!("node {index}");
-        let world_from_node = world_from_parent * parent_from_node(node);
-        if !world_from_node.is_finite() {
-            return Err(Cause::NotFinite(format!("the transform of node {index}")));
-        }
         if let Some(mesh) = node.mesh {
             self.place_mesh(node, mesh, world_from_node, user)?;
         }
         if let Some(camera) = node.camera {
-            let camera = document.find(camera, "camera", user)?;
+            let camera = self.document.find(camera, "camera", user)?;
             let name = name_of([&node.name, &camera.name], "camera", self.scene.cameras.len());
             self.scene.cameras.push(devices::camera(camera, name, world_from_node)?);
         }
         if let Some(light) = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref()) {
             self.place_light(node, light.light, world_from_node, user)?;
-        }
-        for &child in node.children.iter().flatten() {
-            self.visit(child, world_from_node, depth + 1)?;
         }
         Ok(())
     }
@@ -136,12 +115,12 @@ impl<'a> Walk<'a> {
     /// The filled scene with notes on what was passed over, and the light definition behind each of its lights [l].
     pub fn finish(mut self) -> (Scene, Vec<usize>) {
         let counts = [
-            (self.oddities.not_triangles, "primitives of points or lines, or without positions, are ignored"),
-            (self.oddities.morphed, "primitives have morph targets: their base shape is used"),
-            (self.oddities.skinned, "skinned meshes are shown unposed"),
-            (self.scene.dropped_triangles, "triangles without area were dropped"),
+            ("primitives of points or lines, or without positions, ignored", self.oddities.not_triangles),
+            ("primitives with morph targets, shown in their base shape", self.oddities.morphed),
+            ("skinned meshes, shown unposed", self.oddities.skinned),
+            ("triangles without area, dropped", self.scene.dropped_triangles),
         ];
-        let notes = counts.into_iter().filter(|&(count, _)| count > 0).map(|(count, what)| format!("{count} {what}"));
+        let notes = counts.into_iter().filter(|&(_, count)| count > 0).map(|(what, count)| format!("{what}: {count}"));
         self.scene.notes.extend(notes);
         (self.scene, self.light_definitions)
     }
@@ -160,20 +139,13 @@ fn name_of(names: [&Option<String>; 2], kind: &str, index: usize) -> String {
     given.cloned().unwrap_or_else(|| format!("{kind} {index}"))
 }
 
-fn is_hidden(node: &Node) -> bool {
-    let visibility = node.extensions.as_ref().and_then(|extensions| extensions.others.get("KHR_node_visibility"));
-    visibility.is_some_and(|visibility| visibility["visible"] == false)
-}
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::Fixture;
 
-fn parent_from_node(node: &Node) -> DAffine3 {
-    if let Some(matrix) = node.matrix {
-        return DAffine3::from_mat4(DMat4::from_cols_array(&matrix.map(f64::from)));
+    #[test]
+    fn a_primitive_without_material_gets_the_white_metal_of_the_standard() {
+        let scene = Fixture::triangle().load();
+        assert_eq!((scene.materials.len(), scene.materials[0].metallic), (1, 1.0));
     }
-    let vector = |xyz: [f32; 3]| DVec3::from(xyz.map(f64::from));
-    let rotation = DQuat::from_array(node.rotation.unwrap_or_default().0.map(f64::from));
-    DAffine3::from_scale_rotation_translation(
-        node.scale.map_or(DVec3::ONE, vector),
-        if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY },
-        node.translation.map_or(DVec3::ZERO, vector),
-    )
 }

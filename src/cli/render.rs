@@ -1,0 +1,199 @@
+//! `hemicube render`: a picture of a scene, with the light stored in the file or baked now.
+
+use std::path::PathBuf;
+
+use anyhow::{Context, Result, bail};
+use clap::{Args, ValueEnum};
+use glam::Vec3;
+
+use super::bake_options::{BakeOptions, lit_scene, load, positive};
+use crate::baked::{self, BakedScene, VertexLight};
+use crate::gpu::Gpu;
+use crate::render::picture::check_size;
+use crate::render::{Exposure, FileKind, Look, Picture, Raster, compare, picture};
+use crate::scene::{Camera, Scene};
+
+/// Options of `hemicube render`.
+#[derive(Args, Debug)]
+pub struct RenderArgs {
+    /// Scene to draw: .glb or .gltf, baked or not (FILE#NAME chooses one of its scenes), builtin:gallery or
+    /// builtin:cornell.
+    #[arg(default_value = "builtin:gallery")]
+    pub scene: PathBuf,
+    /// The picture: .png as displayed, .exr as linear radiance (nit, before exposure).
+    #[arg(short, long, value_name = "IMG")]
+    pub output: PathBuf,
+    /// Camera of the scene, by name or by number from 0 [default: the first, or an overview where there is none].
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub camera: Option<String>,
+    /// Pixels across and down.
+    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
+    pub size: Size,
+    /// Displayed = radiance x 2^EV; auto meters the picture.
+    #[arg(long, value_name = "EV|auto", default_value = "auto", value_parser = exposure, allow_negative_numbers = true)]
+    pub exposure: Exposure,
+    /// Which light is shown.
+    #[arg(long, value_enum, value_name = "MODE", default_value = "radiosity")]
+    pub lighting: Lighting,
+    /// Compares the picture with this one (.png or .exr) and fails where they differ too much.
+    #[arg(long, value_name = "IMG")]
+    pub reference: Option<PathBuf>,
+    /// Largest relative root mean square error against the reference.
+    #[arg(long, value_name = "T", default_value = "0.05", value_parser = positive, requires = "reference")]
+    pub threshold: f32,
+    /// How to bake where the file stores no light.
+    #[command(flatten)]
+    pub bake: BakeOptions,
+}
+
+/// Which light is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Lighting {
+    /// Straight from the lights.
+    Direct,
+    /// The same everywhere, as much as the stored light on average; nothing is baked for it.
+    Ambient,
+    /// All of the baked light.
+    Radiosity,
+    /// The indirect light of the bake, and direct light.
+    #[value(name = "indirect+direct")]
+    IndirectAndDirect,
+}
+
+/// Width and height in pixels; a type of its own, as clap takes an array for a repeated option.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Size(pub [u32; 2]);
+
+/// Draws, writes and compares.
+///
+/// # Errors
+/// The scene or the reference cannot be loaded, the scene cannot be baked, the picture cannot be written, or it
+/// differs from the reference.
+pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
+    // What can be refused at once is refused before the bake.
+    FileKind::of(&args.output)?;
+    let reference = args.reference.as_deref().map(Raster::load).transpose()?;
+    let scene = load(&args.scene)?;
+    let camera = choose_camera(&scene, args.camera.as_deref())?;
+    let gpu = Gpu::headless()?;
+    check_size(&gpu, args.size.0)?;
+
+    let baked = light(&gpu, scene, args, is_quiet)?;
+    let picture = picture(&gpu, &baked, &camera, args.size.0, &look(args, &baked))?;
+    picture.save(&args.output)?;
+    reference.map_or(Ok(()), |reference| judge(&picture, &reference, args, is_quiet))
+}
+
+/// The camera of that name, else of that number; without a wish the first, else one that sees everything.
+fn choose_camera(scene: &Scene, wanted: Option<&str>) -> Result<Camera> {
+    let Some(wanted) = wanted else {
+        return Ok(scene.cameras.first().cloned().unwrap_or_else(|| Camera::framing(scene.bounds())));
+    };
+    let named = scene.cameras.iter().find(|camera| camera.name == wanted);
+    let numbered = || wanted.parse::<usize>().ok().and_then(|index| scene.cameras.get(index));
+    named.or_else(numbered).cloned().with_context(|| {
+        let names: Vec<_> = scene.cameras.iter().map(|camera| camera.name.as_str()).collect();
+        format!("{} has no camera {wanted}; it has {} ({})", scene.name, names.len(), names.join(", "))
+    })
+}
+
+/// The scene with the light that is to be shown.
+fn light(gpu: &Gpu, scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
+    if args.lighting != Lighting::Ambient {
+        return lit_scene(gpu, scene, &args.bake.settings(), is_quiet);
+    }
+    Ok(baked::gltf::from_scene(scene).unwrap_or_else(|scene| BakedScene {
+        light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()),
+        scene,
+    }))
+}
+
+fn look(args: &RenderArgs, baked: &BakedScene) -> Look {
+    let all = Look { exposure: args.exposure, ..Look::default() };
+    match args.lighting {
+        Lighting::Direct => Look { indirect: 0.0, ..all },
+        Lighting::Ambient => Look { direct: 0.0, indirect: 0.0, ambient: mean_radiance(&baked.light), ..all },
+        Lighting::Radiosity | Lighting::IndirectAndDirect => all,
+    }
+}
+
+/// What white paint shows under the mean of the light; 1 in the dark.
+fn mean_radiance(light: &VertexLight) -> Vec3 {
+    let num_vertices = light.groups.first().map_or(0, |group| group.direct.len()).max(1);
+    let total: Vec3 = light.groups.iter().flat_map(|group| group.direct.iter().chain(&group.indirect)).sum();
+    if total == Vec3::ZERO { Vec3::ONE } else { total / (num_vertices as f32 * std::f32::consts::PI) }
+}
+
+/// Tells how far the picture is from the reference, and fails where that is too far.
+fn judge(picture: &Picture, reference: &Raster, args: &RenderArgs, is_quiet: bool) -> Result<()> {
+    let difference = compare(&Raster::of(picture, reference.kind), reference)?;
+    let told = format!(
+        "relative error {:.4}, mean {:+.2} %, {:.2} % of the pixels look different",
+        difference.relative_rmse,
+        100.0 * difference.mean_difference,
+        100.0 * difference.perceptible_share
+    );
+    // A picture that holds a value that is no number is no good either.
+    if difference.relative_rmse.is_nan() || difference.relative_rmse > args.threshold {
+        bail!("{} differs from the reference: {told} (threshold {})", args.output.display(), args.threshold);
+    }
+    if !is_quiet {
+        eprintln!("{}: {told}", args.output.display());
+    }
+    Ok(())
+}
+
+fn size(text: &str) -> Result<Size, String> {
+    let sides = text.split_once(['x', 'X']).and_then(|(w, h)| Some([w.parse().ok()?, h.parse().ok()?]));
+    sides
+        .filter(|sides| sides.iter().all(|&side| side > 0))
+        .map(Size)
+        .ok_or_else(|| "must look like 1280x720".to_owned())
+}
+
+fn exposure(text: &str) -> Result<Exposure, String> {
+    match text.parse() {
+        Ok(ev) if f32::abs(ev) <= 64.0 => Ok(Exposure::Ev(ev)),
+        _ if text == "auto" => Ok(Exposure::Auto),
+        _ => Err("must be auto or a number from -64 to 64".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_and_exposures_are_read_or_refused() {
+        assert_eq!(size("640x360"), Ok(Size([640, 360])));
+        for wrong in ["640", "0x10", "axb", "640x", "-1x5", "1x2x3"] {
+            assert!(size(wrong).is_err(), "{wrong}");
+        }
+        assert_eq!(exposure("auto"), Ok(Exposure::Auto));
+        assert_eq!(exposure("-7.5"), Ok(Exposure::Ev(-7.5)));
+        for wrong in ["", "bright", "NaN", "inf", "1000"] {
+            assert!(exposure(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn cameras_go_by_name_then_by_number() {
+        let camera = |name| Camera::looking_at(name, Vec3::Z, Vec3::ZERO, 1.0);
+        let scene = Scene { cameras: vec![camera("door"), camera("0")], ..Scene::default() };
+        let chosen = |wanted| choose_camera(&scene, wanted).map(|camera| camera.name);
+        assert_eq!(chosen(None).expect("the first"), "door");
+        assert_eq!(chosen(Some("0")).expect("by name"), "0");
+        assert_eq!(chosen(Some("1")).expect("by number"), "0");
+        let message = chosen(Some("attic")).expect_err("no such camera").to_string();
+        assert!(message.contains("attic") && message.contains("door"), "{message}");
+        assert_eq!(choose_camera(&Scene::default(), None).expect("an overview").name, "overview");
+    }
+
+    #[test]
+    fn the_ambient_light_is_as_strong_as_the_mean() {
+        let mut light = VertexLight::dark(2, 4);
+        assert_eq!(mean_radiance(&light), Vec3::ONE);
+        light.groups[1].indirect[2] = Vec3::splat(4.0 * std::f32::consts::PI);
+        assert!((mean_radiance(&light) - Vec3::ONE).abs().max_element() < 1e-6);
+    }
+}

@@ -1,0 +1,46 @@
+//! How large a scene will be, told from the counts in its JSON before anything is allocated.
+//!
+//! Instances multiply: a file of a few kilobytes can ask for more than any memory holds.
+
+use gltf::json::Index;
+use gltf::json::accessor::Accessor;
+use gltf::json::mesh::{Mode, Primitive, Semantic};
+use gltf::json::validation::Checked;
+
+use super::document::Document;
+use super::error::Cause;
+use super::tree::PlacedNode;
+
+/// Most vertices or triangles of a scene: about 6 GB.
+const MAX_COUNT: u64 = 100_000_000;
+
+/// Refuses a scene with more vertices or triangles than fit, all instances counted.
+pub(super) fn check(document: &Document<'_>, nodes: &[PlacedNode<'_>]) -> Result<(), Cause> {
+    let meshes = nodes.iter().filter_map(|placed| document.root.get(placed.node.mesh?));
+    let sizes = meshes.flat_map(|mesh| &mesh.primitives).map(|primitive| predicted_size(document, primitive));
+    let size = sizes.fold(0, u64::saturating_add);
+    if size > MAX_COUNT {
+        return Err(Cause::TooLarge(format!(
+            "its instances have up to {size} vertices or triangles, and at most {MAX_COUNT} are loaded"
+        )));
+    }
+    Ok(())
+}
+
+/// The larger of the numbers of vertices and triangles, at most.
+fn predicted_size(document: &Document<'_>, primitive: &Primitive) -> u64 {
+    let count = |index: Index<Accessor>| document.root.get(index).map_or(0, |accessor| accessor.count.0);
+    let attribute = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
+    let positions = attribute(Semantic::Positions).map_or(0, count);
+    let corners = primitive.indices.map_or(positions, count);
+    let triangles = match primitive.mode {
+        Checked::Valid(Mode::TriangleStrip | Mode::TriangleFan) => corners,
+        _ => corners / 3,
+    };
+    // Without normals, vertices are split.
+    let vertices = match attribute(Semantic::Normals) {
+        Some(_) => positions.min(corners),
+        None => triangles.saturating_mul(3),
+    };
+    vertices.max(triangles)
+}

@@ -1,0 +1,22 @@
+//! The scenes in assets/ are what the generator makes now.
+//!
+//! `UPDATE_ASSETS=1 cargo test` (or `make assets`) writes them anew.
+
+use std::path::Path;
+
+use hemicube::baked::gltf::scene_to_glb;
+use hemicube::scene::builtin;
+
+#[test]
+fn stored_scenes_equal_generated_ones() {
+    for name in builtin::NAMES {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets").join(format!("{name}.glb"));
+        let scene = builtin::by_name(name).expect("its name is in the list");
+        let generated = scene_to_glb(&scene).expect("small");
+        if std::env::var_os("UPDATE_ASSETS").is_some() {
+            std::fs::write(&file, &generated).expect("assets/ can be written");
+        }
+        let stored = std::fs::read(&file).unwrap_or_default();
+        assert!(stored == generated, "assets/{name}.glb is not what the generator makes; `make assets` writes it");
+    }
+}

@@ -1,0 +1,62 @@
+//! `hemicube render` as a user calls it; ambient light, so that nothing has to be baked.
+
+use std::path::Path;
+use std::process::{Command, Output};
+
+use crate::support::device::gpu;
+
+/// Renders the built-in Cornell box in 64 x 64 pixels to `file` in `folder`.
+fn render(folder: &Path, file: &str, options: &[&str]) -> Output {
+    render_sized(folder, "64x64", file, options)
+}
+
+fn render_sized(folder: &Path, size: &str, file: &str, options: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_hemicube"))
+        .args(["render", "builtin:cornell", "--lighting", "ambient", "--size", size, "-o", file])
+        .args(options)
+        .current_dir(folder)
+        .output()
+        .expect("the program runs")
+}
+
+/// The program fails with one message that holds these words.
+#[track_caller]
+fn assert_fails(output: &Output, words: &[&str]) {
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(!output.status.success() && words.iter().all(|word| message.contains(word)), "{message}");
+}
+
+#[test]
+fn a_picture_agrees_with_itself_and_not_with_another() {
+    if gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for reference in ["a.png", "a.exr"] {
+        let written = render(folder.path(), reference, &[]);
+        assert!(written.status.success(), "{written:?}");
+        let same = render(folder.path(), "b.png", &["--reference", reference, "--threshold", "0.001"]);
+        assert!(same.status.success(), "{same:?}");
+    }
+    let brighter = render(folder.path(), "b.png", &["--exposure", "3", "--reference", "a.png"]);
+    assert_fails(&brighter, &["differs", "relative error", "b.png"]);
+    // Radiance knows no exposure.
+    let brighter = render(folder.path(), "b.png", &["--exposure", "3", "--reference", "a.exr"]);
+    assert!(brighter.status.success(), "{brighter:?}");
+    let larger = render_sized(folder.path(), "80x64", "b.png", &["--reference", "a.png"]);
+    assert_fails(&larger, &["80x64", "64x64"]);
+}
+
+#[test]
+fn wishes_that_cannot_be_met_are_named() {
+    if gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    assert_fails(&render(folder.path(), "a.gif", &[]), &["a.gif", ".png"]);
+    assert_fails(&render(folder.path(), "a.png", &["--camera", "attic"]), &["attic"]);
+    assert_fails(&render_sized(folder.path(), "99999x10", "a.png", &[]), &["99999x10"]);
+    assert_fails(&render(folder.path(), "a.png", &["--reference", "missing.png"]), &["missing.png"]);
+    assert_fails(&render(folder.path(), "no/such/a.png", &[]), &["no/such/a.png"]);
+    assert_eq!(std::fs::read_dir(folder.path()).expect("listed").count(), 0, "nothing was written");
+}
