@@ -4,8 +4,7 @@
 //! window draws, it holds the work ([`Worker::hold`]); the work rests between two of its small steps.
 
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -20,7 +19,7 @@ use crate::gpu::{Gpu, SceneBuffers};
 use crate::scene::{Scene, builtin, gltf};
 
 /// The window hears of progress at most this often.
-const PROGRESS_INTERVAL: Duration = Duration::from_millis(100);
+const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);
 
 /// Where a scene comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -117,7 +116,8 @@ struct Shared {
     cancel: Cancel,
     /// Stage and its done share.
     progress: Mutex<(Stage, f32)>,
-    wants_light: AtomicBool,
+    /// From when on new light is welcome; none while the last is not on the screen.
+    light_wanted: Mutex<Option<Instant>>,
 }
 
 /// Holds the work until it is dropped.
@@ -139,7 +139,7 @@ impl Worker {
             gate: Gate::default(),
             cancel: Cancel::default(),
             progress: Mutex::new((Stage::Load, 0.0)),
-            wants_light: AtomicBool::new(true),
+            light_wanted: Mutex::new(Some(Instant::now())),
         });
         let runner =
             Runner { number, gpu, window, shared: Arc::clone(&shared), mesh: OnceLock::new(), told: Mutex::new(None) };
@@ -150,7 +150,7 @@ impl Worker {
     /// Stage and its done share, 0..1.
     #[must_use]
     pub fn progress(&self) -> (Stage, f32) {
-        *self.shared.progress.lock().unwrap_or_else(PoisonError::into_inner)
+        *lock(&self.shared.progress)
     }
 
     /// Asks the work to end soon and to keep what is solved.
@@ -170,9 +170,9 @@ impl Worker {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
 
-    /// The last light is on the screen; the next one is welcome.
-    pub fn ask_for_light(&self) {
-        self.shared.wants_light.store(true, Ordering::Relaxed);
+    /// The last light is on the screen; the next one is welcome after `pause`.
+    pub fn ask_for_light(&self, pause: Duration) {
+        lock(&self.shared.light_wanted).get_or_insert_with(|| Instant::now() + pause);
     }
 
     /// The work rests until the result is dropped.
@@ -245,6 +245,11 @@ impl Runner {
     }
 }
 
+/// The values behind a lock are whole at any time: a thread that panicked leaves nothing half done.
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
 /// A scene as the file has it, without any light.
 fn dark(scene: Scene) -> BakedScene {
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
@@ -253,8 +258,8 @@ fn dark(scene: Scene) -> BakedScene {
 
 impl Progress for Runner {
     fn report(&self, stage: Stage, done: f32) {
-        *self.shared.progress.lock().unwrap_or_else(PoisonError::into_inner) = (stage, done);
-        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        *lock(&self.shared.progress) = (stage, done);
+        let mut told = lock(&self.told);
         if told.is_none_or(|at| at.elapsed() >= PROGRESS_INTERVAL) {
             *told = Some(Instant::now());
             self.tell(Event::Progress);
@@ -279,12 +284,12 @@ impl Watch for Runner {
     }
 
     fn wants_light(&self) -> bool {
-        self.shared.wants_light.load(Ordering::Relaxed)
+        lock(&self.shared.light_wanted).is_some_and(|from| from <= Instant::now())
     }
 
     fn light(&self, estimate: &VertexLight) {
         if let Some(mesh) = self.mesh.get() {
-            self.shared.wants_light.store(false, Ordering::Relaxed);
+            *lock(&self.shared.light_wanted) = None;
             mesh.set_light(&self.gpu, estimate);
             self.tell(Event::Light);
         }

@@ -1,14 +1,22 @@
 //! One frame, and when the next one is due.
 
-use std::time::Instant;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use winit::event_loop::ControlFlow;
 
 use super::bake_worker::Worker;
+use super::canvas::{Change, Detail, Sight};
 use super::panels::{Command, Facts};
-use super::screen::{PanelShapes, Shown, Sight};
+use super::screen::{PanelShapes, Shown};
 use super::walkthrough::Walkthrough;
 use crate::render::View;
+
+/// A sketch is drawn out when nothing has moved for this long.
+const SETTLE_TIME: Duration = Duration::from_millis(250);
+
+/// Renewed light is wanted this many frame times after the last, so that showing it costs the bake little.
+const LIGHT_INTERVAL: f32 = 6.0;
 
 impl Walkthrough {
     /// Draws one frame.
@@ -31,7 +39,7 @@ impl Walkthrough {
             self.pacer.want();
         }
         if let Some(worker) = self.session.worker() {
-            worker.ask_for_light();
+            worker.ask_for_light(Duration::from_secs_f32(LIGHT_INTERVAL * self.pacer.frame_seconds()));
         }
         for command in commands {
             self.perform(command);
@@ -69,18 +77,48 @@ impl Walkthrough {
     }
 
     fn show(&mut self, panels: &PanelShapes) -> Shown {
+        let picture = self.next_picture();
+        self.screen.show(&self.window, picture, panels)
+    }
+
+    /// What has to be drawn anew, and how finely; none where the last picture is still right.
+    fn next_picture(&mut self) -> Option<(Sight, Detail)> {
+        let place = self.session.place.as_ref()?;
         let size = self.screen.size();
-        let Some(place) = &self.session.place else { return self.screen.show(&self.window, None, panels) };
-        let view = View::from_camera(&place.traveller.eye.camera(), size[0] as f32 / size[1] as f32);
-        let look = self.panels.light.look(place.is_lit);
-        let sight = Sight { scene: &place.buffers, view: &view, look: &look };
-        self.screen.show(&self.window, Some(sight), panels)
+        let sight = Sight {
+            scene: Arc::clone(&place.buffers),
+            light: place.light_version,
+            view: View::from_camera(&place.traveller.eye.camera(), size[0] as f32 / size[1] as f32),
+            look: self.panels.light.look(place.is_lit),
+            size,
+        };
+        let canvas = &self.screen.canvas;
+        let at_rest = if canvas.is_slow() && self.session.worker().is_some() { Detail::Plain } else { Detail::Fine };
+        let detail = match canvas.change(&sight) {
+            Change::Sight if canvas.is_slow() => {
+                self.settle = Some(Instant::now() + SETTLE_TIME);
+                Detail::Sketch
+            }
+            Change::Sight => Detail::Fine,
+            // Light alone does not make a picture coarse.
+            Change::Light if self.settle.is_some() => Detail::Sketch,
+            Change::Light => at_rest,
+            Change::None => {
+                let is_settled = self.settle.is_none_or(|settle| settle <= Instant::now());
+                if !is_settled || canvas.detail() >= Some(at_rest) {
+                    return None;
+                }
+                self.settle = None;
+                at_rest
+            }
+        };
+        Some((sight, detail))
     }
 
     /// Asks for the next frame where one is due, else says until when nothing needs to happen.
     pub fn plan(&mut self) -> ControlFlow {
         let now = Instant::now();
-        let wake = self.gui.wake();
+        let wake = [self.gui.wake(), self.settle].into_iter().flatten().min();
         if wake.is_some_and(|wake| wake <= now) {
             self.gui.clear_wake();
             self.pacer.want();

@@ -19,6 +19,7 @@ pub mod travel;
 pub mod walk;
 pub mod walkthrough;
 
+mod canvas;
 mod commands;
 mod frame;
 mod gui;

@@ -114,3 +114,55 @@ impl Pacer {
 fn smooth(mean: &mut f32, newest: f32) {
     *mean = if *mean == 0.0 { newest } else { *mean + SMOOTHING * (newest - *mean) };
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn pacer(log: Option<&Path>) -> Pacer {
+        Pacer::new(60.0, log).expect("a pacer")
+    }
+
+    #[test]
+    fn nothing_is_due_when_nothing_has_changed() {
+        let mut pacer = pacer(None);
+        pacer.begin();
+        pacer.end(false);
+        assert_eq!(pacer.due(false), None);
+        pacer.want();
+        assert!(pacer.due(false).is_some());
+    }
+
+    #[test]
+    fn a_bake_gets_its_turn_between_frames() {
+        let mut pacer = pacer(None);
+        pacer.begin();
+        std::thread::sleep(Duration::from_millis(40));
+        pacer.end(true);
+        pacer.want();
+        let pause = pacer.due(true).expect("wanted") - pacer.ended;
+        assert!(pause >= Duration::from_millis(20), "{pause:?}");
+        assert!(pacer.due(false).expect("wanted") <= pacer.ended);
+    }
+
+    #[test]
+    fn the_log_has_a_line_a_frame() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("frames.txt");
+        let mut pacer = pacer(Some(&path));
+        for is_baking in [false, true] {
+            pacer.want();
+            pacer.begin();
+            pacer.end(is_baking);
+        }
+        let text = std::fs::read_to_string(&path).expect("a log");
+        let flags: Vec<_> = text.lines().filter_map(|line| line.split_once(' ')).map(|(_, flag)| flag).collect();
+        assert_eq!(flags, ["0", "1"], "{text}");
+    }
+
+    #[test]
+    fn a_log_that_cannot_be_written_is_refused() {
+        let message = Pacer::new(60.0, Some(Path::new("/no/such/folder/log"))).err().map(|error| error.to_string());
+        assert!(message.is_some_and(|message| message.contains("/no/such/folder/log")));
+    }
+}

@@ -6,11 +6,9 @@ use anyhow::Context;
 use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
-use crate::gpu::{Gpu, SceneBuffers};
-use crate::render::{Look, Renderer, View};
+use super::canvas::{Canvas, Detail, Sight};
+use crate::gpu::Gpu;
 
-/// Samples a pixel.
-pub const SAMPLES: u32 = 4;
 /// Behind the panels while no scene is open.
 const EMPTY: wgpu::Color = wgpu::Color { r: 0.05, g: 0.055, b: 0.065, a: 1.0 };
 
@@ -20,18 +18,9 @@ pub struct Screen {
     pub gpu: Arc<Gpu>,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
-    renderer: Renderer,
+    /// The picture behind the panels.
+    pub canvas: Canvas,
     painter: egui_wgpu::Renderer,
-}
-
-/// A scene to draw.
-pub struct Sight<'a> {
-    /// What.
-    pub scene: &'a SceneBuffers,
-    /// From where.
-    pub view: &'a View,
-    /// How.
-    pub look: &'a Look,
 }
 
 /// Panels to draw.
@@ -67,9 +56,9 @@ impl Screen {
         let gpu = Gpu::for_surface(instance, Some(&surface))?;
         let config = configuration(&gpu, &surface, window.inner_size())?;
         surface.configure(&gpu.device, &config);
-        let renderer = Renderer::new(&gpu, config.format, SAMPLES);
+        let canvas = Canvas::new(&gpu, config.format);
         let painter = egui_wgpu::Renderer::new(&gpu.device, config.format, egui_wgpu::RendererOptions::default());
-        Ok(Self { gpu: Arc::new(gpu), surface, config, renderer, painter })
+        Ok(Self { gpu: Arc::new(gpu), surface, config, canvas, painter })
     }
 
     /// Pixels across and down.
@@ -87,8 +76,8 @@ impl Screen {
         }
     }
 
-    /// Draws a frame and shows it.
-    pub fn show(&mut self, window: &Window, sight: Option<Sight<'_>>, panels: &PanelShapes) -> Shown {
+    /// Draws a frame and shows it: a new picture where one is given, else the last one, and the panels on top.
+    pub fn show(&mut self, window: &Window, picture: Option<(Sight, Detail)>, panels: &PanelShapes) -> Shown {
         // Even where the frame fails: panels say only once what is new.
         self.update_textures(&panels.textures);
         let frame = match self.surface.get_current_texture() {
@@ -102,16 +91,7 @@ impl Screen {
             }
         };
         let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
-        let mut encoder =
-            self.gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("screen") });
-        match sight {
-            Some(sight) => {
-                let size = self.size();
-                self.renderer.draw(&self.gpu, &mut encoder, &target, size, sight.scene, sight.view, sight.look);
-            }
-            None => drop(begin_pass(&mut encoder, &target, wgpu::LoadOp::Clear(EMPTY))),
-        }
-        self.paint(encoder, &target, panels);
+        self.submit(&target, picture, panels);
         if self.gpu.is_software() {
             // The cores draw now: the bake shall not take them away before the frame is whole.
             let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
@@ -121,29 +101,32 @@ impl Screen {
         Shown::Yes
     }
 
-    fn update_textures(&mut self, textures: &egui::TexturesDelta) {
-        for (&id, deltas) in &textures.set {
-            for delta in deltas {
-                self.painter.update_texture(&self.gpu.device, &self.gpu.queue, id, delta);
-            }
-        }
-    }
-
-    /// Submits the picture with the panels on top.
-    fn paint(&mut self, mut encoder: wgpu::CommandEncoder, target: &wgpu::TextureView, panels: &PanelShapes) {
+    fn submit(&mut self, target: &wgpu::TextureView, picture: Option<(Sight, Detail)>, panels: &PanelShapes) {
         let Gpu { device, queue, .. } = &*self.gpu;
-        let screen = egui_wgpu::ScreenDescriptor {
-            size_in_pixels: [self.config.width, self.config.height],
-            pixels_per_point: panels.pixels_per_point,
-        };
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("screen") });
+        if let Some((sight, detail)) = picture {
+            self.canvas.draw(&self.gpu, &mut encoder, sight, detail);
+        }
+        let has_picture = self.canvas.paste(&self.gpu, &mut encoder, target);
+        let screen =
+            egui_wgpu::ScreenDescriptor { size_in_pixels: self.size(), pixels_per_point: panels.pixels_per_point };
         let mut uploads = self.painter.update_buffers(device, queue, &mut encoder, &panels.primitives, &screen);
-        let mut pass = begin_pass(&mut encoder, target, wgpu::LoadOp::Load).forget_lifetime();
+        let background = if has_picture { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(EMPTY) };
+        let mut pass = begin_pass(&mut encoder, target, background).forget_lifetime();
         self.painter.render(&mut pass, &panels.primitives, &screen);
         drop(pass);
         uploads.push(encoder.finish());
         queue.submit(uploads);
         for id in &panels.textures.free {
             self.painter.free_texture(id);
+        }
+    }
+
+    fn update_textures(&mut self, textures: &egui::TexturesDelta) {
+        for (&id, deltas) in &textures.set {
+            for delta in deltas {
+                self.painter.update_texture(&self.gpu.device, &self.gpu.queue, id, delta);
+            }
         }
     }
 }

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
-use super::screen::SAMPLES;
+use super::canvas::SAMPLES;
 use crate::gpu::{Gpu, SceneBuffers};
 use crate::render::{Look, picture_of};
 use crate::scene::Camera;

@@ -26,6 +26,8 @@ pub struct Place {
     pub traveller: Traveller,
     /// On the device.
     pub buffers: Arc<SceneBuffers>,
+    /// Counts how often their light was renewed.
+    pub light_version: u32,
     /// There is light to see by.
     pub is_lit: bool,
     /// Camera of the file that was visited last.
@@ -167,16 +169,18 @@ impl Session {
         let traveller = first_view(&scene, &collider);
         self.num_elements = is_baked.then_some(scene.triangles.len());
         self.outcome = if is_baked { LightState::Stored } else { LightState::Dark };
-        self.place = Some(Place { scene, collider, traveller, buffers, is_lit: is_baked, camera: 0 });
+        self.place = Some(Place { scene, collider, traveller, buffers, light_version: 0, is_lit: is_baked, camera: 0 });
         if is_baked {
             self.retire();
         }
         Outcome::Opened
     }
 
-    /// Shows the mesh that has just received its first light.
+    /// Shows the light that has just come, the first time with the mesh that it is on.
     fn light_up(&mut self) {
-        if let (Some(place), Some(buffers)) = (&mut self.place, self.coming.take()) {
+        let Some(place) = &mut self.place else { return };
+        place.light_version += 1;
+        if let Some(buffers) = self.coming.take() {
             (place.buffers, place.is_lit) = (buffers, true);
         }
     }

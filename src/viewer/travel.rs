@@ -159,3 +159,92 @@ fn scale_of((low, high): (Vec3, Vec3)) -> f32 {
     let size = (high - low).length().max(1e-4);
     size / size.clamp(SMALLEST, LARGEST)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec2, Vec4};
+
+    use super::*;
+    use crate::base::ids::{InstanceId, MaterialId};
+    use crate::scene::{Scene, Triangle, Vertex};
+
+    /// A square floor of this width at height 0.
+    fn floor(width: f32) -> Collider {
+        let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)];
+        let vertex = |(x, z): (f32, f32)| Vertex {
+            position: Vec3::new(x, 0.0, z) * width,
+            normal: Vec3::Y,
+            uv: [Vec2::ZERO; 2],
+            colour: Vec4::ONE,
+        };
+        let triangle =
+            |vertices| Triangle { vertices, material: MaterialId(0), instance: InstanceId(0), is_back_side: false };
+        Collider::new(&Scene {
+            vertices: corners.map(vertex).to_vec(),
+            triangles: vec![triangle([0, 1, 2]), triangle([0, 2, 3])],
+            ..Scene::default()
+        })
+    }
+
+    fn at_height(y: f32) -> Eye {
+        Eye::looking_along(Vec3::Y * y, Vec3::NEG_Z)
+    }
+
+    const AHEAD: Intent = Intent { forward: 1.0, right: 0.0, up: 0.0, turn_left: 0.0, turn_up: 0.0, run: false };
+
+    #[test]
+    fn a_camera_at_head_height_walks_and_one_on_the_ceiling_flies() {
+        let floor = floor(10.0);
+        assert!(Traveller::new(at_height(1.6), &floor).is_walking());
+        assert!(!Traveller::new(at_height(3.0), &floor).is_walking());
+        assert!(!Traveller::new(at_height(-1.0), &floor).is_walking());
+    }
+
+    #[test]
+    fn flying_follows_the_line_of_sight_and_walking_the_floor() {
+        let floor = floor(20.0);
+        let mut traveller = Traveller::new(at_height(1.65), &floor);
+        traveller.eye.turn(0.0, 0.8);
+        traveller.advance(AHEAD, 0.25, &floor);
+        assert!((traveller.eye.position.y - 1.65).abs() < 1e-4 && traveller.eye.position.z < -0.1);
+        assert!(traveller.toggle_walking(&floor).is_ok());
+        traveller.advance(AHEAD, 0.25, &floor);
+        assert!(traveller.eye.position.y > 1.7, "{}", traveller.eye.position);
+    }
+
+    #[test]
+    fn walking_needs_a_floor() {
+        let floor = floor(2.0);
+        let mut traveller = Traveller::new(Eye::looking_along(Vec3::new(9.0, 1.6, 0.0), Vec3::X), &floor);
+        assert_eq!(traveller.toggle_walking(&floor), Err(NoFloor));
+        assert!(!traveller.is_walking());
+    }
+
+    #[test]
+    fn a_doll_house_is_walked_at_a_doll_s_pace() {
+        let eye = |width: f32| at_height(0.005 * width);
+        let (room, doll_house) = (floor(10.0), floor(0.1));
+        let in_room = Traveller::new(eye(10.0), &room).pace();
+        let in_doll_house = Traveller::new(eye(0.1), &doll_house).pace();
+        assert!(in_doll_house < 0.1 * in_room, "{in_doll_house} {in_room}");
+    }
+
+    #[test]
+    fn a_long_pause_is_no_leap() {
+        let floor = floor(1000.0);
+        let mut traveller = Traveller::new(at_height(1.65), &floor);
+        traveller.advance(AHEAD, 100.0, &floor);
+        assert!(traveller.eye.position.length() < 3.0, "{}", traveller.eye.position);
+    }
+
+    #[test]
+    fn the_wheel_stays_in_its_range() {
+        let floor = floor(10.0);
+        let mut traveller = Traveller::new(at_height(1.65), &floor);
+        let pace = traveller.pace();
+        traveller.change_speed(1e4);
+        assert!(traveller.pace() <= 50.1 * pace);
+        traveller.change_speed(-1e6);
+        assert!(traveller.pace() >= 0.049 * pace);
+    }
+}

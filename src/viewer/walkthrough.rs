@@ -2,6 +2,7 @@
 //! [`super::frame`].
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use winit::event::{DeviceEvent, ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
 use winit::event_loop::EventLoopProxy;
@@ -32,6 +33,8 @@ pub struct Walkthrough {
     pub(super) keys: Keys,
     pub(super) look: MouseLook,
     pub(super) pacer: Pacer,
+    /// When a sketch shall be drawn out.
+    pub(super) settle: Option<Instant>,
     /// As given on the command line; the first bake's.
     pub(super) settings: BakeSettings,
     pub(super) adapter: String,
@@ -61,6 +64,7 @@ impl Walkthrough {
             gui,
             session,
             pacer,
+            settle: None,
         })
     }
 
