@@ -16,7 +16,7 @@ use crate::gpu::Gpu;
 use crate::patch::{MeshError, PatchMesh};
 use crate::radiosity::Field;
 use crate::radiosity::direct::DirectLight;
-use crate::radiosity::gather::gather;
+use crate::radiosity::gather::{Gathered, gather};
 use crate::radiosity::gathering::{polish, reflected_radiosity};
 use crate::radiosity::progressive::{Progressive, Solution};
 use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, on_elements, vertex_light};
@@ -69,7 +69,8 @@ pub fn bake(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, watch: &dyn Watch
 
     // Cut the scene into elements and patches.
     watch.report(Stage::Mesh, 0.0);
-    let mesh = PatchMesh::new(scene, &settings.mesh_settings(scene))?;
+    let sizes = settings.mesh_settings(scene);
+    let mesh = PatchMesh::new(scene, &sizes)?;
     let mut baked = dark_scene(scene, &mesh);
     watch.mesh(&baked);
     seconds.lap(Stage::Mesh, &mut clock);
@@ -98,12 +99,9 @@ pub fn bake(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, watch: &dyn Watch
     // Collect the indirect light at the vertices.
     let mut gathering = Hemicubes::new(gpu, scene, &mesh, settings.hemicube_px);
     let radiosity = reflected_radiosity(&mesh, &solution.direct, &on_patches);
-    let gathered = gather(&radiosity, &mut gathering, &places, watch)?;
-    let mut indirect = completed(gathered.indirect, places.len(), || estimate(&mesh, &solution));
-    let num_gathered = gathered.is_valid.len();
-    let mut is_valid = gathered.is_valid;
-    is_valid.resize(places.len(), true);
-    fill_hidden(&mesh, &is_valid, [&mut direct, &mut indirect]);
+    let gathered = gather(&mesh, &radiosity, &mut gathering, &places, &settings.gather(&sizes), watch)?;
+    let mut indirect = completed(&gathered, || estimate(&mesh, &solution));
+    fill_hidden(&mesh, &gathered.is_valid, [&mut direct, &mut indirect]);
     baked.light = vertex_light(&mesh, &direct, &indirect);
     watch.light(&baked.light);
     seconds.lap(Stage::Gather, &mut clock);
@@ -119,14 +117,14 @@ pub fn bake(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, watch: &dyn Watch
         patches: mesh.patches.len(),
         vertices: places.len(),
         light_groups: scene.light_groups.clone(),
-        hemicubes: rows.num_viewpoints() + num_gathered,
+        hemicubes: rows.num_viewpoints() + gathered.num_hemicubes,
         hemicube_px: settings.hemicube_px,
         shots: solution.num_shots,
         unshot_share,
         cancelled: watch.is_cancelled(),
         energy: solution.energy.into(),
         backface_share: gathered.mean_back_share,
-        hidden_vertices: is_valid.iter().filter(|valid| !**valid).count(),
+        hidden_vertices: gathered.is_valid.iter().filter(|valid| !**valid).count(),
         seconds,
     };
     Ok(Bake { baked, report, solution, mesh })
@@ -145,13 +143,13 @@ fn estimate(mesh: &PatchMesh, solution: &Solution) -> Field {
 }
 
 /// The gathered light, completed by the estimate where gathering was cut short.
-fn completed(gathered: Field, num_places: usize, estimate: impl Fn() -> Field) -> Field {
-    if gathered.num_places() == num_places {
-        return gathered;
+fn completed(gathered: &Gathered, estimate: impl Fn() -> Field) -> Field {
+    if gathered.is_known.iter().all(|known| *known) {
+        return gathered.indirect.clone();
     }
     let mut field = estimate();
-    for place in 0..gathered.num_places() {
-        field.at_mut(place).copy_from_slice(gathered.at(place));
+    for (place, _) in gathered.is_known.iter().enumerate().filter(|(_, known)| **known) {
+        field.at_mut(place).copy_from_slice(gathered.indirect.at(place));
     }
     field
 }

@@ -1,6 +1,7 @@
 //! Presets that a user need not tune, and the sizes they mean on a given scene.
 
 use crate::patch::MeshSettings;
+use crate::radiosity::gather::GatherSettings;
 use crate::radiosity::progressive::ProgressiveSettings;
 use crate::scene::Scene;
 
@@ -36,12 +37,17 @@ pub struct BakeSettings {
     pub target_patches: f64,
     /// Hemicubes a patch.
     pub points_a_patch: usize,
+    /// Error that vertices may make by borrowing gathered light from their neighbourhood.
+    pub cache_tolerance: f32,
     /// Rays a place and emitter in penumbrae.
     pub num_penumbra_rays: u32,
 }
 
 /// Width of the hemicubes that shoot: they see patches, not detail.
 pub(super) const SHOOTING_PX: u32 = 64;
+
+/// Farthest that gathered light is borrowed from, in element sizes.
+const BORROW_REACH: f32 = 8.0;
 
 /// Rows kept between shots.
 const ROW_BYTES: usize = 1 << 30;
@@ -62,6 +68,7 @@ impl BakeSettings {
             target_elements: 40_000.0,
             target_patches: 1_500.0,
             points_a_patch: 2,
+            cache_tolerance: 0.15,
             num_penumbra_rays: 64,
         };
         match quality {
@@ -71,6 +78,7 @@ impl BakeSettings {
                 target_elements: 10_000.0,
                 target_patches: 500.0,
                 points_a_patch: 1,
+                cache_tolerance: 0.3,
                 num_penumbra_rays: 32,
                 ..base
             },
@@ -81,6 +89,7 @@ impl BakeSettings {
                 target_elements: 160_000.0,
                 target_patches: 4_000.0,
                 points_a_patch: 4,
+                cache_tolerance: 0.08,
                 num_penumbra_rays: 256,
                 ..base
             },
@@ -95,6 +104,10 @@ impl BakeSettings {
         let element_size = self.element_size.unwrap_or(chosen);
         let patch_size = ((area / self.target_patches).sqrt() as f32).max(element_size);
         MeshSettings { element_size, patch_size }
+    }
+
+    pub(super) fn gather(&self, sizes: &MeshSettings) -> GatherSettings {
+        GatherSettings { tolerance: self.cache_tolerance, max_radius: BORROW_REACH * sizes.element_size }
     }
 
     pub(super) fn progressive(&self) -> ProgressiveSettings {

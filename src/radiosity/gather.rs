@@ -1,25 +1,55 @@
-//! Gathering: the indirect irradiance at every site, from one hemicube there over the solved elements.
+//! Gathering: the indirect irradiance at every site, from hemicubes over the solved elements.
+//!
+//! A hemicube stands at every site of a sparse set that grows where light changes fast; the sites between borrow from them
+//! through the [irradiance cache](super::cache).
 //!
 //! Source: Wallace, Elmquist, Haines 1989 (radiosity at vertices); Lischinski, Tampieri, Greenberg 1993 (final gather of
 //! a radiosity solution).
 
 use glam::Vec3;
 
+use super::cache::IrradianceCache;
 use super::field::Field;
 use crate::base::progress::{Progress, Stage};
-use crate::form_factor::{FormFactorError, FormFactors, Viewpoint, map_rows};
+use crate::base::sampling::hash;
+use crate::form_factor::{FormFactorError, FormFactors, Row, Viewpoint, map_rows};
+use crate::patch::PatchMesh;
 
 /// A site that sees more back faces than this share lies inside something.
 const MAX_BACK_SHARE: f32 = 0.4;
 
+/// Sites gathered before the cache is asked again.
+const ROUND: usize = 512;
+
+/// Where and how densely light is gathered.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GatherSettings {
+    /// Largest error of the irradiance cache; 0 gathers at every site.
+    pub tolerance: f32,
+    /// Farthest that a site is borrowed from, metres.
+    pub max_radius: f32,
+}
+
 /// Indirect light at sites.
 pub struct Gathered {
-    /// Indirect irradiance [site][group], lux per channel; for the first sites only where it was cancelled.
+    /// Indirect irradiance [site][group], lux per channel.
     pub indirect: Field,
     /// The site lies on an open surface, not inside or behind a wall.
     pub is_valid: Vec<bool>,
-    /// Share of back faces seen, mean over all sites.
+    /// The light of the site is known; false where it was cancelled before.
+    pub is_known: Vec<bool>,
+    /// Share of back faces seen, mean over all hemicubes.
     pub mean_back_share: f32,
+    /// Hemicubes that stood at sites.
+    pub num_hemicubes: usize,
+}
+
+/// What a hemicube tells of its site.
+struct Sight {
+    irradiance: Vec<Vec3>,
+    back: f32,
+    /// Harmonic mean distance, metres.
+    distance: f32,
 }
 
 /// Gathers the reflected `radiosity` [e][g] at all `sites`.
@@ -29,31 +59,110 @@ pub struct Gathered {
 /// # Errors
 /// The form factors could not be found.
 pub fn gather(
+    mesh: &PatchMesh,
     radiosity: &Field,
     method: &mut dyn FormFactors,
     sites: &[Viewpoint],
+    settings: &GatherSettings,
     progress: &dyn Progress,
 ) -> Result<Gathered, FormFactorError> {
-    let num_groups = radiosity.num_groups();
+    let centroids: Vec<Vec3> = mesh.elements.iter().map(|element| mesh.centroid(element)).collect();
     let go_on = || {
         progress.rest();
         !progress.is_cancelled()
     };
-    let gathered_at = |index: usize, row: &crate::form_factor::Row| {
-        let mut irradiance = vec![Vec3::ZERO; num_groups];
-        for entry in &row.entries {
-            for (sum, &radiosity) in irradiance.iter_mut().zip(radiosity.at(entry.element.index())) {
-                *sum += entry.factor * radiosity;
+    let mut gathered = Gathered::nothing(sites.len(), radiosity.num_groups());
+    let mut cache = IrradianceCache::new(settings.tolerance, settings.max_radius);
+    let mut weights = Vec::new();
+    let order = scattered_order(sites.len());
+    let mut next = 0;
+    while next < order.len() && !progress.is_cancelled() {
+        // Choose the next sites that no hemicube near them serves.
+        let mut chosen = Vec::with_capacity(ROUND);
+        while chosen.len() < ROUND && next < order.len() {
+            let site = order[next];
+            cache.weights(&sites[site as usize], &mut weights);
+            if weights.is_empty() {
+                chosen.push(site);
+            }
+            next += 1;
+        }
+        let viewpoints: Vec<Viewpoint> = chosen.iter().map(|&site| sites[site as usize]).collect();
+        let sights =
+            map_rows(method, &viewpoints, &go_on, |index, row| see(row, &viewpoints[index], radiosity, &centroids))?;
+        for ((&site, viewpoint), sight) in chosen.iter().zip(&viewpoints).zip(&sights) {
+            gathered.enter(site as usize, sight);
+            if sight.back <= MAX_BACK_SHARE && settings.tolerance > 0.0 {
+                cache.insert(viewpoint, sight.distance, site);
             }
         }
-        if index.is_multiple_of(64) {
-            progress.report(Stage::Gather, index as f32 / sites.len() as f32);
+        progress.report(Stage::Gather, next as f32 / order.len() as f32);
+    }
+    gathered.borrow_the_rest(sites, &cache);
+    gathered.mean_back_share /= gathered.num_hemicubes.max(1) as f32;
+    Ok(gathered)
+}
+
+/// All sites in an order that covers the scene evenly from the start.
+fn scattered_order(num_sites: usize) -> Vec<u32> {
+    let mut order: Vec<u32> = (0..num_sites as u32).collect();
+    order.sort_by_key(|&site| hash(site));
+    order
+}
+
+/// Irradiance, back faces and harmonic mean distance from one row.
+fn see(row: &Row, viewpoint: &Viewpoint, radiosity: &Field, centroids: &[Vec3]) -> Sight {
+    let mut irradiance = vec![Vec3::ZERO; radiosity.num_groups()];
+    let (mut inverse_distance, mut seen) = (0.0, 0.0);
+    for entry in &row.entries {
+        let element = entry.element.index();
+        for (sum, &radiosity) in irradiance.iter_mut().zip(radiosity.at(element)) {
+            *sum += entry.factor * radiosity;
         }
-        (irradiance, row.back)
-    };
-    let found = map_rows(method, sites, &go_on, gathered_at)?;
-    let is_valid = found.iter().map(|(_, back)| *back <= MAX_BACK_SHARE).collect();
-    let mean_back_share = found.iter().map(|(_, back)| back).sum::<f32>() / found.len().max(1) as f32;
-    let values = found.into_iter().flat_map(|(irradiance, _)| irradiance).collect();
-    Ok(Gathered { indirect: Field::from_values(num_groups, values), is_valid, mean_back_share })
+        inverse_distance += entry.factor * centroids[element].distance(viewpoint.position).recip();
+        seen += entry.factor;
+    }
+    let distance = if inverse_distance > 0.0 { seen / inverse_distance } else { f32::MAX };
+    Sight { irradiance, back: row.back, distance }
+}
+
+impl Gathered {
+    fn nothing(num_sites: usize, num_groups: usize) -> Self {
+        Self {
+            indirect: Field::zero(num_sites, num_groups),
+            is_valid: vec![true; num_sites],
+            is_known: vec![false; num_sites],
+            mean_back_share: 0.0,
+            num_hemicubes: 0,
+        }
+    }
+
+    fn enter(&mut self, site: usize, sight: &Sight) {
+        self.indirect.at_mut(site).copy_from_slice(&sight.irradiance);
+        self.is_known[site] = true;
+        self.is_valid[site] = sight.back <= MAX_BACK_SHARE;
+        self.mean_back_share += sight.back;
+        self.num_hemicubes += 1;
+    }
+
+    /// Gives every site without hemicube the weighted mean of those near it.
+    fn borrow_the_rest(&mut self, sites: &[Viewpoint], cache: &IrradianceCache) {
+        let mut weights = Vec::new();
+        for (site, viewpoint) in sites.iter().enumerate() {
+            if self.is_known[site] {
+                continue;
+            }
+            cache.weights(viewpoint, &mut weights);
+            let mut sums = vec![Vec3::ZERO; self.indirect.num_groups()];
+            for &(record, weight) in &weights {
+                for (sum, &value) in sums.iter_mut().zip(self.indirect.at(record as usize)) {
+                    *sum += value * weight;
+                }
+            }
+            if !weights.is_empty() {
+                self.indirect.at_mut(site).copy_from_slice(&sums);
+                self.is_known[site] = true;
+            }
+        }
+    }
 }

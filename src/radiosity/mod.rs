@@ -4,6 +4,7 @@
 //! lights, [`progressive`] shoots it on from patch to patch until little is left unshot, [`gathering`] polishes the answer
 //! with the rows that were kept, [`gather`] collects the indirect light at every site, and [`reconstruct`] puts it on the mesh that is drawn.
 
+pub mod cache;
 pub mod direct;
 mod emitter;
 pub mod field;

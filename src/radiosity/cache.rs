@@ -1,0 +1,119 @@
+//! Irradiance cache: indirect light varies slowly, so a site near one that is known can borrow from it.
+//!
+//! Each known site is good for a neighbourhood that grows with the harmonic mean distance of what it sees: small in corners,
+//! large in the open. The normal tells the other half of the error.
+//!
+//! Source: Ward, Rubinstein, Clear 1988, "A ray tracing solution for diffuse interreflection".
+
+use std::collections::HashMap;
+
+use glam::{IVec3, Vec3};
+
+use crate::form_factor::Viewpoint;
+
+/// A site whose irradiance is known.
+#[derive(Clone, Copy, Debug)]
+struct Record {
+    position: Vec3,
+    normal: Vec3,
+    /// Harmonic mean distance of the surfaces seen, metres.
+    distance: f32,
+    site: u32,
+}
+
+/// Known sites in a grid, by their neighbourhoods.
+#[derive(Debug)]
+pub struct IrradianceCache {
+    /// Largest error at which a record may be borrowed from.
+    tolerance: f32,
+    cell: f32,
+    max_radius: f32,
+    records: HashMap<IVec3, Vec<Record>>,
+}
+
+impl IrradianceCache {
+    /// An empty cache; records reach at most `max_radius` metres.
+    #[must_use]
+    pub fn new(tolerance: f32, max_radius: f32) -> Self {
+        Self { tolerance, cell: max_radius, max_radius, records: HashMap::new() }
+    }
+
+    /// Enters a known site that sees surfaces at harmonic mean distance `distance`.
+    pub fn insert(&mut self, viewpoint: &Viewpoint, distance: f32, site: u32) {
+        let record = Record { position: viewpoint.position, normal: viewpoint.normal, distance, site };
+        let radius = self.radius(distance);
+        let low = ((viewpoint.position - radius) / self.cell).floor().as_ivec3();
+        let high = ((viewpoint.position + radius) / self.cell).floor().as_ivec3();
+        for x in low.x..=high.x {
+            for y in low.y..=high.y {
+                for z in low.z..=high.z {
+                    self.records.entry(IVec3::new(x, y, z)).or_default().push(record);
+                }
+            }
+        }
+    }
+
+    /// Known sites that `viewpoint` may borrow from, with weights that sum to 1; none where there are none.
+    ///
+    /// Equation: w = 1 / error - 1 / tolerance with error = |x - x_i| / R_i + sqrt(1 - n . n_i), which fades to zero at
+    /// the border of the neighbourhood.
+    pub fn weights(&self, viewpoint: &Viewpoint, weights: &mut Vec<(u32, f32)>) {
+        weights.clear();
+        let cell = (viewpoint.position / self.cell).floor().as_ivec3();
+        let Some(records) = self.records.get(&cell) else { return };
+        for record in records {
+            if let Some(error) = self.error(record, viewpoint) {
+                weights.push((record.site, 1.0 / error.max(1e-3) - 1.0 / self.tolerance));
+            }
+        }
+        let sum: f32 = weights.iter().map(|(_, weight)| weight).sum();
+        weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
+    }
+
+    fn error(&self, record: &Record, viewpoint: &Viewpoint) -> Option<f32> {
+        let offset = viewpoint.position - record.position;
+        let error = offset.length() * self.tolerance / self.radius(record.distance)
+            + (1.0 - viewpoint.normal.dot(record.normal)).max(0.0).sqrt();
+        // A place in front of the record may be hidden from what the record sees.
+        let height = offset.dot(viewpoint.normal + record.normal) * 0.5;
+        (error < self.tolerance && height.abs() < 0.5 * self.radius(record.distance)).then_some(error)
+    }
+
+    fn radius(&self, distance: f32) -> f32 {
+        (distance * self.tolerance).min(self.max_radius)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn viewpoint(x: f32, normal: Vec3) -> Viewpoint {
+        Viewpoint { position: Vec3::new(x, 0.0, 0.0), normal, seed: 0 }
+    }
+
+    fn weights(cache: &IrradianceCache, viewpoint: &Viewpoint) -> Vec<(u32, f32)> {
+        let mut weights = Vec::new();
+        cache.weights(viewpoint, &mut weights);
+        weights
+    }
+
+    #[test]
+    fn a_place_between_two_records_borrows_from_both() {
+        let mut cache = IrradianceCache::new(0.2, 1.0);
+        cache.insert(&viewpoint(0.0, Vec3::Y), 1.0, 7);
+        cache.insert(&viewpoint(0.2, Vec3::Y), 1.0, 8);
+        let found = weights(&cache, &viewpoint(0.1, Vec3::Y));
+        assert_eq!(found.iter().map(|(site, _)| *site).collect::<Vec<_>>(), [7, 8]);
+        assert!(found.iter().all(|(_, weight)| (weight - 0.5).abs() < 1e-4), "{found:?}");
+    }
+
+    #[test]
+    fn nothing_is_borrowed_from_afar_or_round_a_corner() {
+        let mut cache = IrradianceCache::new(0.2, 1.0);
+        cache.insert(&viewpoint(0.0, Vec3::Y), 1.0, 7);
+        assert!(weights(&cache, &viewpoint(0.21, Vec3::Y)).is_empty());
+        assert!(weights(&cache, &viewpoint(0.0, Vec3::X)).is_empty());
+        assert!(!weights(&cache, &viewpoint(0.19, Vec3::Y)).is_empty());
+    }
+}
