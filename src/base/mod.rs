@@ -1,6 +1,7 @@
-//! Floor 0: what every other floor speaks in. No scene, no GPU, no files.
+//! Floor 0: what every other floor speaks in. No scene, no GPU, no file formats.
 
 pub mod colour;
 pub mod ids;
+pub mod output;
 pub mod progress;
 pub mod sampling;

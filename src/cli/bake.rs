@@ -1,6 +1,5 @@
 //! `hemicube bake`: solves the light of a scene and writes it as a standard .glb.
 
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
@@ -9,6 +8,7 @@ use clap::Args;
 use super::bake_options::{BakeOptions, bake_watched, load, positive};
 use crate::bake::{BakeSettings, Report};
 use crate::baked;
+use crate::base::output::write_whole;
 use crate::gpu::Gpu;
 
 /// Options of `hemicube bake`.
@@ -63,15 +63,9 @@ pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
     Ok(())
 }
 
-/// Writes the report under a temporary name and renames it.
+/// Writes the report as JSON that people can read.
 fn write_report(path: &Path, report: &Report) -> Result<()> {
-    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
-    let write = || -> Result<()> {
-        let mut file = tempfile::NamedTempFile::new_in(folder)?;
-        serde_json::to_writer_pretty(&mut file, report)?;
-        file.write_all(b"\n")?;
-        file.persist(path)?;
-        Ok(())
-    };
-    write().with_context(|| format!("{}: cannot be written", path.display()))
+    let mut text = serde_json::to_vec_pretty(report)?;
+    text.push(b'\n');
+    write_whole(path, &text).with_context(|| format!("{}: cannot be written", path.display()))
 }

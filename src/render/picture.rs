@@ -1,10 +1,11 @@
 //! A picture without a window, and its file.
 
-use std::io::{BufWriter, Write};
+use std::io::Cursor;
 use std::path::Path;
 
 use super::{Look, RenderError, Renderer, View};
 use crate::baked::BakedScene;
+use crate::base::output::write_whole;
 use crate::gpu::readback::read_texture;
 use crate::gpu::{Gpu, GpuError, SceneBuffers};
 use crate::scene::Camera;
@@ -164,16 +165,9 @@ impl Picture {
 }
 
 fn write_image(path: &Path, format: image::ImageFormat, image: &image::DynamicImage) -> Result<(), RenderError> {
-    let refused = |cause| RenderError::Write { path: path.to_owned(), cause };
-    // In the same folder, so that the renaming is one step of the file system.
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(refused)?;
-    let mut writer = BufWriter::new(&mut file);
-    image.write_to(&mut writer, format).map_err(|cause| RenderError::Encode { path: path.to_owned(), cause })?;
-    writer.flush().map_err(refused)?;
-    drop(writer);
-    file.persist(path).map_err(|error| refused(error.error))?;
-    Ok(())
+    let mut encoded = Cursor::new(Vec::new());
+    image.write_to(&mut encoded, format).map_err(|cause| RenderError::Encode { path: path.to_owned(), cause })?;
+    write_whole(path, encoded.get_ref()).map_err(|cause| RenderError::Write { path: path.to_owned(), cause })
 }
 
 #[cfg(test)]

@@ -14,12 +14,12 @@ mod node;
 mod read;
 
 use std::collections::BTreeSet;
-use std::io::Write as _;
 use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
 use super::{BakedError, BakedScene, VertexLight};
+use crate::base::output::write_whole;
 use crate::scene::Scene;
 use binary::Binary;
 
@@ -29,7 +29,7 @@ const GLB_MAGIC: u32 = 0x4654_6c67;
 const CHUNK_JSON: u32 = 0x4e4f_534a;
 const CHUNK_BINARY: u32 = 0x004e_4942;
 
-/// Writes a bake to `path`: under a temporary name in the same folder, renamed when it is whole.
+/// Writes a bake to `path`, where it appears when it is whole.
 ///
 /// `exposure_ev` is the exposure that shows the scene well; viewers of this format start with it.
 ///
@@ -37,15 +37,7 @@ const CHUNK_BINARY: u32 = 0x004e_4942;
 /// The folder is not writable, or the scene is larger than a .glb can be.
 pub fn write(path: &Path, baked: &BakedScene, exposure_ev: f32) -> Result<(), BakedError> {
     let bytes = to_glb(baked, exposure_ev)?;
-    let folder = match path.parent() {
-        Some(folder) if folder != Path::new("") => folder,
-        _ => Path::new("."),
-    };
-    let failed = |source| BakedError::Write { path: path.to_owned(), source };
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    file.write_all(&bytes).map_err(failed)?;
-    file.persist(path).map_err(|error| failed(error.error))?;
-    Ok(())
+    write_whole(path, &bytes).map_err(|source| BakedError::Write { path: path.to_owned(), source })
 }
 
 /// The bytes of a bake as .glb.
