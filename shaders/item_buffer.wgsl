@@ -44,13 +44,12 @@ override HAS_CUTOUTS: bool = false;
 const NOTHING: u32 = 0u;
 const BACK: u32 = 1u;
 const FIRST_ELEMENT: u32 = 2u;
-// Zero, because software drivers run pixels outside the triangle too, and these read zeros: they must end.
-const LEAF: u32 = 0u;
-
 struct Varyings {
     @builtin(position) position: vec4<f32>,
     @location(0) barycentric: vec3<f32>,
     @location(1) @interpolate(flat) triangle: u32,
+    @location(2) @interpolate(flat) root: u32,
+    @location(3) @interpolate(flat) back_offset: u32,
 }
 
 @vertex
@@ -60,35 +59,47 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) view: u32)
     out.position = views[view] * vec4<f32>(corners[index].xyz, 1.0);
     out.barycentric = vec3<f32>(f32(corner == 0u), f32(corner == 1u), f32(corner == 2u));
     out.triangle = index / 3u;
+    out.root = triangles[out.triangle].root;
+    out.back_offset = triangles[out.triangle].back_offset;
     return out;
 }
 
 @fragment
 fn fragment(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0) u32 {
-    let back_offset = triangles[in.triangle].back_offset;
     if HAS_CUTOUTS && is_hole(in) {
         discard;
     }
-    if !is_front && back_offset == 0u {
+    if !is_front && in.back_offset == 0u {
         return BACK;
     }
-    let element = element_at(triangles[in.triangle].root, in.barycentric);
-    return FIRST_ELEMENT + element + select(back_offset, 0u, is_front);
+    return FIRST_ELEMENT + element_at(in.root, in.barycentric) + select(in.back_offset, 0u, is_front);
 }
 
-// The leaf that holds a barycentric position; see PatchMesh::element_at.
+// The element that holds a barycentric position; see Node in src/patch/tree.rs.
+//
+// Software drivers also run pixels outside the triangle, whose reads yield zero: a zero node ends the descent.
 fn element_at(root: u32, barycentric: vec3<f32>) -> u32 {
     var w = barycentric;
-    var node = tree[root];
-    while (node & 3u) != LEAF {
-        // Turn the weights so that the apex comes first.
-        let apex = node & 3u;
-        w = select(select(w, w.yzx, apex == 2u), w.zxy, apex == 3u);
-        let is_second = w.z > w.y;
-        w = select(vec3<f32>(w.x, w.y - w.z, 2.0 * w.z), vec3<f32>(w.x, 2.0 * w.y, w.z - w.y), is_second);
-        node = tree[(node >> 2u) + u32(is_second)];
+    var node = root;
+    while (node & 3u) != 0u {
+        let turn = node & 3u;
+        w = select(select(w, w.yzx, turn == 2u), w.zxy, turn == 3u);
+        node = tree[(node >> 2u) + u32(w.z > w.y)];
+        w = halved(w);
     }
-    return node >> 2u;
+    var path = 0u;
+    for (var depth = (node >> 2u) & 15u; depth > 0u; depth--) {
+        path = 2u * path + u32(w.z > w.y);
+        w = halved(w);
+    }
+    return (node >> 6u) + path;
+}
+
+// Weights in the half of the triangle that holds the point.
+fn halved(w: vec3<f32>) -> vec3<f32> {
+    let at_midpoint = 2.0 * min(w.y, w.z);
+    let rest = abs(w.y - w.z);
+    return vec3<f32>(at_midpoint, select(w.x, rest, w.z > w.y), select(rest, w.x, w.z > w.y));
 }
 
 fn is_hole(in: Varyings) -> bool {

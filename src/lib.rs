@@ -27,4 +27,6 @@ pub mod radiosity;
 
 pub mod bake;
 
+pub mod viewer;
+
 pub mod cli;

@@ -1,4 +1,4 @@
-//! Floor 0: what every other floor speaks in. No scene, no GPU, no file formats.
+//! Floor 0: what every other floor speaks in. No scene, no GPU.
 
 pub mod colour;
 pub mod ids;

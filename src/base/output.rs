@@ -1,25 +1,30 @@
-//! Output files appear whole or not at all.
+//! Files that appear under their name only when they are whole.
 
+use std::fs;
 use std::io::{self, Write as _};
 use std::path::Path;
 
 /// Writes a file under a temporary name in the same folder and renames it: a stopped run leaves no half file.
 ///
+/// What is there already and is no ordinary file, such as `/dev/null` or a pipe, is written to as it is.
+///
 /// # Errors
-/// The folder is not writable, or the disk is full.
+/// The folder or the file cannot be written to.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    // In the same folder, so that the renaming is one step of the file system.
-    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
+        return fs::write(path, bytes);
+    }
+    let folder = path.parent().filter(|folder| *folder != Path::new("")).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
-        // As other programs make files, less what the user's umask forbids; a temporary file is private otherwise.
+        // As any new file: readable as the user's mask allows; temporary files are private by default.
         use std::os::unix::fs::PermissionsExt as _;
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
+        builder.permissions(fs::Permissions::from_mode(0o666));
     }
     let mut file = builder.tempfile_in(folder)?;
     file.write_all(bytes)?;
-    file.persist(path).map_err(|error| error.error)?;
+    file.persist(path)?;
     Ok(())
 }
 
@@ -28,28 +33,38 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_file_replaces_an_older_one_and_nothing_else_stays() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("light.glb");
-        write_whole(&path, b"old, and longer").unwrap();
-        write_whole(&path, b"new").unwrap();
-        assert_eq!(std::fs::read(&path).unwrap(), b"new");
-        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-    }
-
-    #[test]
-    fn a_missing_folder_is_an_error() {
-        assert!(write_whole(Path::new("no such folder/light.glb"), b"").is_err());
+    fn a_file_is_replaced_as_a_whole_and_nothing_else_is_left() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("light.bin");
+        for bytes in [&b"first and longer"[..], b"second"] {
+            write_whole(&path, bytes).expect("written");
+            assert_eq!(fs::read(&path).expect("read"), bytes);
+        }
+        assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
     }
 
     #[cfg(unix)]
     #[test]
-    fn others_may_read_it_as_far_as_the_umask_allows() {
+    fn a_new_file_has_the_rights_of_any_new_file() {
         use std::os::unix::fs::PermissionsExt as _;
-        let folder = tempfile::tempdir().unwrap();
-        let mode = |name: &str| std::fs::metadata(folder.path().join(name)).unwrap().permissions().mode();
-        std::fs::write(folder.path().join("usual"), b"").unwrap();
-        write_whole(&folder.path().join("ours"), b"").unwrap();
-        assert_eq!(mode("ours"), mode("usual"));
+        let folder = tempfile::tempdir().expect("a folder");
+        let (ours, usual) = (folder.path().join("ours"), folder.path().join("usual"));
+        write_whole(&ours, b"").expect("written");
+        fs::write(&usual, b"").expect("written");
+        let [ours, usual] = [ours, usual].map(|path| fs::metadata(path).expect("there").permissions().mode());
+        assert_eq!(ours, usual);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn devices_stay_devices() {
+        let device = Path::new("/dev/null");
+        write_whole(device, b"gone").expect("written");
+        assert!(!fs::metadata(device).expect("there").is_file());
+    }
+
+    #[test]
+    fn a_missing_folder_is_an_error() {
+        assert!(write_whole(Path::new("no/such/folder/file"), b"").is_err());
     }
 }

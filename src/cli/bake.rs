@@ -63,9 +63,9 @@ pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
     Ok(())
 }
 
-/// Writes the report as JSON that people can read.
+/// Writes the report as JSON.
 fn write_report(path: &Path, report: &Report) -> Result<()> {
-    let mut text = serde_json::to_vec_pretty(report)?;
-    text.push(b'\n');
-    write_whole(path, &text).with_context(|| format!("{}: cannot be written", path.display()))
+    let mut text = serde_json::to_string_pretty(report)?;
+    text.push('\n');
+    write_whole(path, text.as_bytes()).with_context(|| format!("{}: cannot be written", path.display()))
 }

@@ -5,8 +5,7 @@ pub mod bake_options;
 pub mod info;
 pub mod render;
 mod terminal;
-
-use std::path::PathBuf;
+pub mod view;
 
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
@@ -18,8 +17,9 @@ pub struct Cli {
     /// What to do; without it the viewer opens.
     #[command(subcommand)]
     pub command: Option<Command>,
-    /// Scene to open in the viewer (.glb or .gltf, also a baked one; FILE#NAME chooses one of its scenes).
-    pub scene: Option<PathBuf>,
+    /// Options of the viewer.
+    #[command(flatten)]
+    pub view: view::ViewArgs,
     /// How much is told.
     #[command(flatten)]
     pub verbosity: Verbosity,
@@ -74,6 +74,6 @@ pub fn run(cli: &Cli) -> Result<()> {
         Some(Command::Bake(args)) => bake::run(args, cli.verbosity.is_quiet()),
         Some(Command::Render(args)) => render::run(args, cli.verbosity.is_quiet()),
         Some(Command::Info(args)) => info::run(args),
-        None => anyhow::bail!("this build has no viewer"),
+        None => view::run(&cli.view),
     }
 }

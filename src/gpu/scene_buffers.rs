@@ -15,8 +15,10 @@ use crate::baked::{BakedScene, VertexLight};
 use crate::base::ids::MaterialId;
 use crate::scene::{AlphaMode, Scene};
 
-/// Radiance above which HDR textures, which are half floats, need scaling down.
+/// Half floats, of which HDR textures are made, hold this and four times as much.
 const COMFORTABLE_RADIANCE: f32 = 16_384.0;
+/// Typical radiance of surfaces that leaves half floats room for light a thousand times as strong or as weak.
+const COMFORTABLE_SURFACES: std::ops::RangeInclusive<f32> = 1.0 / 1024.0..=64.0;
 
 /// A lit scene on the device.
 pub struct SceneBuffers {
@@ -201,13 +203,28 @@ fn batches(scene: &Scene) -> (Vec<Batch>, Vec<u32>) {
     (batches, triangles.iter().flat_map(|triangle| triangle.vertices).collect())
 }
 
-/// Brings the brightest lamp and the brightest lit white surface below [`COMFORTABLE_RADIANCE`]; 1 where they are.
+/// A scale that brings the brightest lamp below [`COMFORTABLE_RADIANCE`], but keeps lit surfaces within
+/// [`COMFORTABLE_SURFACES`]; 1 where both are so already.
 fn pre_exposure(baked: &BakedScene) -> f32 {
     let lamps = baked.scene.materials.iter().map(|material| material.emission.max_element());
-    let lit = baked.light.groups.iter().flat_map(|group| group.direct.iter().chain(&group.indirect));
-    let surfaces = lit.map(|irradiance| irradiance.max_element() / std::f32::consts::PI);
-    let peak = lamps.chain(surfaces).fold(0.0, f32::max);
-    (COMFORTABLE_RADIANCE / peak).log2().floor().min(0.0).exp2()
+    let for_lamps = (COMFORTABLE_RADIANCE / lamps.fold(0.0, f32::max)).min(1.0);
+    let typical = typical_white_radiance(&baked.light);
+    let (low, high) = (COMFORTABLE_SURFACES.start() / typical, COMFORTABLE_SURFACES.end() / typical);
+    let scale = if typical.is_normal() { for_lamps.clamp(low, high) } else { for_lamps };
+    scale.log2().floor().exp2()
+}
+
+/// Log-average of the radiance that white paint shows in one part of the light: a vertex that touches a point light is
+/// boundless, and must not count for more than another.
+fn typical_white_radiance(light: &VertexLight) -> f32 {
+    let values = light.groups.iter().flat_map(|group| group.direct.iter().chain(&group.indirect));
+    let radiances = values.map(|value| value.max_element() / std::f32::consts::PI);
+    let (mut log_sum, mut count) = (0.0, 0u32);
+    for radiance in radiances.filter(|radiance| radiance.is_finite() && *radiance > 0.0) {
+        log_sum += f64::from(radiance.log2());
+        count += 1;
+    }
+    if count == 0 { 0.0 } else { (log_sum / f64::from(count)).exp2() as f32 }
 }
 
 #[cfg(test)]
@@ -251,5 +268,18 @@ mod tests {
         assert_eq!(pre_exposure(&lamp(0.0)), 1.0);
         assert_eq!(pre_exposure(&lamp(10_000.0)), 1.0);
         assert_eq!(pre_exposure(&lamp(1.6e9)), 2f32.powi(-17));
+    }
+
+    #[test]
+    fn one_boundless_vertex_does_not_darken_the_scene() {
+        let scale_of = |strongest: f32| {
+            let mut light = VertexLight::dark(1, 1000);
+            light.groups[0].direct.fill(Vec3::ONE);
+            light.groups[0].direct[7] = Vec3::splat(strongest);
+            pre_exposure(&BakedScene { light, ..BakedScene::default() })
+        };
+        assert_eq!(scale_of(f32::INFINITY), 1.0);
+        assert_eq!(scale_of(f32::NAN), 1.0);
+        assert_eq!(scale_of(1e9), 1.0);
     }
 }

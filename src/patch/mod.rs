@@ -6,6 +6,7 @@
 mod cluster;
 mod optics;
 mod subdivide;
+mod tree;
 
 use std::ops::Range;
 
@@ -14,7 +15,8 @@ use glam::Vec3;
 use crate::base::ids::{ElementId, GroupId, PatchId, TriangleId};
 use crate::scene::{Scene, Vertex};
 
-pub use subdivide::{LEAF, MeshError};
+pub use subdivide::MeshError;
+pub use tree::Node;
 
 /// How finely a scene is cut.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,8 +42,8 @@ pub struct PatchMesh {
     pub patches: Vec<Patch>,
     /// Elements of all patches, patch by patch.
     pub members: Vec<ElementId>,
-    /// Bisection trees of all input triangles: see [`PatchMesh::element_at`].
-    pub tree: Vec<u32>,
+    /// Children of the nodes of all bisection trees, in pairs.
+    pub tree: Vec<Node>,
     /// Tree and element range of each input triangle [t].
     pub roots: Vec<Root>,
 }
@@ -88,8 +90,8 @@ pub struct Patch {
 /// Where the bisection tree and the elements of an input triangle are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Root {
-    /// Index of the root node in [`PatchMesh::tree`].
-    pub node: u32,
+    /// Root of the bisection tree.
+    pub node: Node,
     /// First front element.
     pub first_element: u32,
     /// Elements on one side. The back element of front element `e` is `e + num_elements` where there are backs.
@@ -139,25 +141,8 @@ impl PatchMesh {
     }
 
     /// The front element at a barycentric position of an input triangle.
-    ///
-    /// Descends the bisection tree: a node holds `child << 2 | k + 1`, where the edge opposite corner `k` is halved, the
-    /// child at `child` keeps the first end of that edge and the one at `child + 1` the second; a leaf holds
-    /// `element << 2 |` [`LEAF`]. The item buffer's fragment shader does the same.
     #[must_use]
     pub fn element_at(&self, triangle: TriangleId, barycentric: Vec3) -> ElementId {
-        let mut weights = barycentric.to_array();
-        let mut node = self.tree[self.roots[triangle.index()].node as usize];
-        while node & 3 != LEAF {
-            let apex = (node & 3) as usize - 1;
-            let (at_apex, first, second) = (weights[apex], weights[(apex + 1) % 3], weights[(apex + 2) % 3]);
-            let is_second = second > first;
-            weights = if is_second {
-                [at_apex, 2.0 * first, second - first]
-            } else {
-                [at_apex, first - second, 2.0 * second]
-            };
-            node = self.tree[(node >> 2) as usize + usize::from(is_second)];
-        }
-        ElementId(node >> 2)
+        ElementId(self.roots[triangle.index()].node.element_at(&self.tree, barycentric))
     }
 }

@@ -11,15 +11,16 @@ use std::collections::HashMap;
 use glam::{IVec3, Vec3};
 use thiserror::Error;
 
+use super::tree::Node;
 use super::{Element, LightVertex, PatchMesh, Root};
 use crate::base::ids::{PatchId, TriangleId};
 use crate::scene::{Scene, Vertex};
 
-/// Mark of a leaf in a tree node.
-pub const LEAF: u32 = 0;
+/// Element ids must fit in a node beside depth and kind.
+const MAX_ELEMENTS: usize = 1 << 26;
 
-/// Element ids and a mark must fit in an item of 32 bits.
-const MAX_ELEMENTS: usize = 1 << 28;
+/// Deepest regular tree that a node can hold.
+const MAX_REGULAR_DEPTH: u32 = 15;
 
 /// The scene cannot be cut as asked.
 #[derive(Debug, Error)]
@@ -83,37 +84,41 @@ impl Cutter {
         let corners = scene.triangles[triangle.index()].vertices;
         let has_backs = scene.material_of(triangle).double_sided;
         let first_element = self.mesh.elements.len();
-        let root = self.mesh.tree.len() as u32;
-        self.mesh.tree.push(0);
-        self.bisect(root as usize, corners, triangle);
+        let node = self.bisect(corners, triangle);
         let fronts = self.mesh.elements.len() - first_element;
         if has_backs {
             self.add_backs(first_element..first_element + fronts, corners);
         }
         self.mesh.roots.push(Root {
-            node: root,
+            node,
             first_element: first_element as u32,
             num_elements: fronts as u32,
             has_backs,
         });
     }
 
-    /// Fills tree node `node` with the bisection of a triangle.
-    fn bisect(&mut self, node: usize, corners: [u32; 3], triangle: TriangleId) {
+    /// Cuts a triangle and returns the node of its tree.
+    fn bisect(&mut self, corners: [u32; 3], triangle: TriangleId) -> Node {
         let (apex, length_squared) = self.longest_edge(corners);
         if length_squared <= self.max_edge_squared {
-            let element = self.mesh.elements.len() as u32;
-            self.mesh.tree[node] = element << 2 | LEAF;
             self.mesh.elements.push(blank_element(corners, triangle, false));
-            return;
+            return Node::regular(self.mesh.elements.len() as u32 - 1, 0);
         }
         let [at_apex, first, second] = [0, 1, 2].map(|k| corners[(apex + k) % 3]);
         let midpoint = self.midpoint(first, second);
-        let child = self.mesh.tree.len();
-        self.mesh.tree[node] = (child as u32) << 2 | (apex as u32 + 1);
-        self.mesh.tree.extend([0, 0]);
-        self.bisect(child, [at_apex, first, midpoint], triangle);
-        self.bisect(child + 1, [at_apex, midpoint, second], triangle);
+        let children =
+            [self.bisect([midpoint, at_apex, first], triangle), self.bisect([midpoint, second, at_apex], triangle)];
+        match children.map(Node::as_regular) {
+            [Some((first_element, depth)), Some((_, other))]
+                if apex == 0 && depth == other && depth < MAX_REGULAR_DEPTH =>
+            {
+                Node::regular(first_element, depth + 1)
+            }
+            _ => {
+                self.mesh.tree.extend(children);
+                Node::split(apex, self.mesh.tree.len() as u32 - 2)
+            }
+        }
     }
 
     /// The corner opposite the longest edge, and that edge's squared length.

@@ -165,9 +165,9 @@ impl Picture {
 }
 
 fn write_image(path: &Path, format: image::ImageFormat, image: &image::DynamicImage) -> Result<(), RenderError> {
-    let mut encoded = Cursor::new(Vec::new());
-    image.write_to(&mut encoded, format).map_err(|cause| RenderError::Encode { path: path.to_owned(), cause })?;
-    write_whole(path, encoded.get_ref()).map_err(|cause| RenderError::Write { path: path.to_owned(), cause })
+    let mut bytes = Cursor::new(Vec::new());
+    image.write_to(&mut bytes, format).map_err(|cause| RenderError::Encode { path: path.to_owned(), cause })?;
+    write_whole(path, bytes.get_ref()).map_err(|cause| RenderError::Write { path: path.to_owned(), cause })
 }
 
 #[cfg(test)]

@@ -29,7 +29,7 @@ const GLB_MAGIC: u32 = 0x4654_6c67;
 const CHUNK_JSON: u32 = 0x4e4f_534a;
 const CHUNK_BINARY: u32 = 0x004e_4942;
 
-/// Writes a bake to `path`, where it appears when it is whole.
+/// Writes a bake to `path`: under a temporary name in the same folder, renamed when it is whole.
 ///
 /// `exposure_ev` is the exposure that shows the scene well; viewers of this format start with it.
 ///

@@ -10,7 +10,7 @@ use wgpu::util::DeviceExt;
 use super::faces::{Bounds, Frustum};
 use crate::base::ids::{MaterialId, TriangleId};
 use crate::gpu::Gpu;
-use crate::patch::PatchMesh;
+use crate::patch::{Node, PatchMesh};
 use crate::scene::{AlphaMode, Scene, Wrap};
 
 /// Triangles that are culled together.
@@ -38,7 +38,6 @@ impl Geometry {
         let triangles: Vec<gpu_data::Triangle> =
             order.iter().map(|&t| cutouts.describe_triangle(scene, mesh, t)).collect();
         let has_cutouts = !cutouts.records.is_empty();
-        // Empty bindings are not allowed.
         cutouts.records.push(gpu_data::Cutout::zeroed());
         cutouts.alphas.resize((cutouts.alphas.len() + 1).next_multiple_of(4), 0);
         let buffer = |label, contents: &[u8]| {
@@ -51,7 +50,8 @@ impl Geometry {
         Self {
             corners: buffer("hemicube corners", bytemuck::cast_slice(&positions)),
             triangles: buffer("hemicube triangles", bytemuck::cast_slice(&triangles)),
-            tree: buffer("hemicube trees", bytemuck::cast_slice(&mesh.tree)),
+            // Empty bindings are not allowed: one node more than there are.
+            tree: buffer("hemicube trees", bytemuck::cast_slice(&[mesh.tree.as_slice(), &[Node::default()]].concat())),
             cutouts: buffer("hemicube cut-outs", bytemuck::cast_slice(&cutouts.records)),
             alphas: buffer("hemicube alphas", &cutouts.alphas),
             has_cutouts,
@@ -131,7 +131,7 @@ impl Cutouts {
         let uv = vertices.map(|v| slot.map_or(Vec2::ZERO, |slot| slot.coordinate(v.uv)).to_array());
         let alpha_byte = |i: usize| ((vertices[i].colour.w * 255.0).round() as u32).min(255) << (8 * i);
         gpu_data::Triangle {
-            root: root.node,
+            root: root.node.bits(),
             back_offset: if root.has_backs { root.num_elements } else { 0 },
             cutout,
             padding: 0,

@@ -135,7 +135,8 @@ fn bindings_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         count: None,
     };
     use wgpu::ShaderStages as Stage;
-    let stages = [Stage::VERTEX, Stage::VERTEX, Stage::FRAGMENT, Stage::FRAGMENT, Stage::FRAGMENT, Stage::FRAGMENT];
+    let stages =
+        [Stage::VERTEX, Stage::VERTEX, Stage::VERTEX_FRAGMENT, Stage::FRAGMENT, Stage::FRAGMENT, Stage::FRAGMENT];
     let entries: Vec<_> = (0..).zip(stages).map(|(binding, stage)| storage(binding, stage)).collect();
     gpu.device
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("item buffer"), entries: &entries })

@@ -1,0 +1,32 @@
+//! `hemicube [SCENE]`: the window.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use clap::Args;
+
+use super::bake_options::BakeOptions;
+use crate::viewer::{self, ViewerOptions};
+
+/// Options of the viewer.
+#[derive(Args, Debug)]
+pub struct ViewArgs {
+    /// Scene to open: .glb or .gltf, also a baked one (FILE#NAME chooses one of its scenes), builtin:gallery or
+    /// builtin:cornell [default: builtin:gallery].
+    pub scene: Option<PathBuf>,
+    /// How to bake a scene that brings no light.
+    #[command(flatten)]
+    pub bake: BakeOptions,
+    /// Logs the time of each frame: seconds from when it was wanted, and 1 where a bake was running.
+    #[arg(long, value_name = "FILE", hide = true)]
+    pub frame_log: Option<PathBuf>,
+}
+
+/// Opens the window until it is closed.
+///
+/// # Errors
+/// There is no display, or no graphics device that can draw into a window.
+pub fn run(args: &ViewArgs) -> Result<()> {
+    let ViewArgs { scene, bake, frame_log } = args;
+    viewer::run(ViewerOptions { scene: scene.clone(), settings: bake.settings(), frame_log: frame_log.clone() })
+}

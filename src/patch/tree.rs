@@ -1,0 +1,67 @@
+//! Bisection trees: which element holds a point of an input triangle.
+
+use glam::Vec3;
+
+/// A node of a bisection tree in 32 bits.
+///
+/// A triangle with corners `a, f, s`, apex first, is halved at the midpoint `m` of `f` and `s` into `(m, a, f)` and
+/// `(m, s, a)`: the newest corner comes first. Where the newest corner stays the apex for a number of levels, as it does in
+/// most triangles after a level or two, the whole tree below is regular and one node tells all of it.
+///
+/// * `first element << 6 | depth << 2`: a regular tree of `2^depth` elements, a single element at depth 0;
+/// * `index of two children << 2 | apex + 1`: halved at the edge opposite corner `apex`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, bytemuck::Pod, bytemuck::Zeroable)]
+#[repr(transparent)]
+pub struct Node(u32);
+
+impl Node {
+    /// A regular tree.
+    pub(super) fn regular(first_element: u32, depth: u32) -> Self {
+        Self(first_element << 6 | depth << 2)
+    }
+
+    /// A triangle halved opposite corner `apex`, whose children are at `children` and `children + 1`.
+    pub(super) fn split(apex: usize, children: u32) -> Self {
+        Self(children << 2 | (apex as u32 + 1))
+    }
+
+    /// First element and depth of a regular tree.
+    pub(super) fn as_regular(self) -> Option<(u32, u32)> {
+        (self.0 & 3 == 0).then_some((self.0 >> 6, self.0 >> 2 & 15))
+    }
+
+    /// The bits, as shaders see them.
+    #[must_use]
+    pub fn bits(self) -> u32 {
+        self.0
+    }
+
+    /// The element at barycentric position `weights` of this node's triangle; `tree` holds the children.
+    ///
+    /// The fragment shader of the item buffer does the same.
+    pub(super) fn element_at(mut self, tree: &[Self], weights: Vec3) -> u32 {
+        let mut weights = weights.to_array();
+        loop {
+            if let Some((first_element, depth)) = self.as_regular() {
+                let mut path = 0;
+                for _ in 0..depth {
+                    let is_second = halve(&mut weights);
+                    path = path << 1 | u32::from(is_second);
+                }
+                return first_element + path;
+            }
+            weights.rotate_left((self.0 & 3) as usize - 1);
+            let is_second = halve(&mut weights);
+            self = tree[(self.0 >> 2) as usize + usize::from(is_second)];
+        }
+    }
+}
+
+/// Replaces weights of `(a, f, s)` by those of the half that holds the point; true for the second half.
+fn halve(weights: &mut [f32; 3]) -> bool {
+    let [at_apex, first, second] = *weights;
+    let is_second = second > first;
+    let (at_midpoint, rest) = (2.0 * first.min(second), (first - second).abs());
+    *weights = if is_second { [at_midpoint, rest, at_apex] } else { [at_midpoint, at_apex, rest] };
+    is_second
+}

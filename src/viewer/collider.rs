@@ -1,0 +1,164 @@
+//! What the walker touches: the scene's triangles in a bounding volume hierarchy of their own.
+//!
+//! It owns its triangles, so that the window keeps it beside any scene, and it is asked for boxes as well as for rays,
+//! which the light's tree ([`crate::trace`]) is not made for. Cut-outs are solid here, and so are both sides of a face.
+
+use glam::{Vec3, Vec3A};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::{Bvh2, builder::build_bvh2};
+use obvhs::ray::{Ray, RayHit};
+use obvhs::triangle::Triangle;
+
+use crate::base::ids::TriangleId;
+use crate::scene::Scene;
+
+/// Solid triangles.
+pub struct Collider {
+    tree: Bvh2,
+    /// In the order of the tree's leaves.
+    triangles: Vec<Triangle>,
+    bounds: (Vec3, Vec3),
+}
+
+/// A ball that touches something.
+#[derive(Clone, Copy, Debug)]
+pub struct Touch {
+    /// Point of the surface nearest to the ball's centre.
+    pub point: Vec3,
+    /// Its distance from the centre, metres.
+    pub distance: f32,
+}
+
+/// What a ray straight down or up meets.
+#[derive(Clone, Copy, Debug)]
+pub struct Surface {
+    /// World height of the point, metres.
+    pub height: f32,
+    /// Unit normal that points up.
+    pub normal: Vec3,
+}
+
+impl Collider {
+    /// Builds the tree.
+    ///
+    /// Cost: about a microsecond a triangle.
+    #[must_use]
+    pub fn new(scene: &Scene) -> Self {
+        let solid: Vec<Triangle> = (0..scene.triangles.len())
+            .filter(|&t| !scene.triangles[t].is_back_side)
+            .map(|t| {
+                let [v0, v1, v2] = scene.corners(TriangleId::new(t)).map(Vec3A::from);
+                Triangle { v0, v1, v2 }
+            })
+            .collect();
+        let tree = build_bvh2(&solid, BvhBuildParams::medium_build(), &mut std::time::Duration::default());
+        let triangles = tree.primitive_indices.iter().map(|&t| solid[t as usize]).collect();
+        Self { tree, triangles, bounds: scene.bounds() }
+    }
+
+    /// Smallest box round the scene.
+    #[must_use]
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        self.bounds
+    }
+
+    /// The highest surface below `from`, at most `depth` metres lower.
+    #[must_use]
+    pub fn below(&self, from: Vec3, depth: f32) -> Option<Surface> {
+        self.vertical(from, Vec3A::NEG_Y, depth)
+    }
+
+    /// The lowest surface above `from`, at most `height` metres higher.
+    #[must_use]
+    pub fn above(&self, from: Vec3, height: f32) -> Option<Surface> {
+        self.vertical(from, Vec3A::Y, height)
+    }
+
+    fn vertical(&self, from: Vec3, direction: Vec3A, length: f32) -> Option<Surface> {
+        if self.triangles.is_empty() {
+            return None;
+        }
+        let mut hit = RayHit::none();
+        let ray = Ray::new(from.into(), direction, 0.0, length);
+        self.tree.ray_traverse(ray, &mut hit, |ray, at| self.triangles[at].intersect(ray));
+        if hit.t >= length {
+            return None;
+        }
+        let normal = Vec3::from(self.triangles[hit.primitive_id as usize].compute_normal());
+        let up = if normal.y < 0.0 { -normal } else { normal };
+        Some(Surface { height: from.y + direction.y * hit.t, normal: up })
+    }
+
+    /// Calls `touch` with each surface point nearest to the centre of a ball that the ball reaches.
+    pub fn touches(&self, centre: Vec3, radius: f32, mut touch: impl FnMut(Touch)) {
+        let reach = Vec3A::splat(radius);
+        let near = Aabb::new(Vec3A::from(centre) - reach, Vec3A::from(centre) + reach);
+        self.tree.aabb_traverse(near, |tree, node| {
+            let node = &tree.nodes[node as usize];
+            let range = node.first_index as usize..(node.first_index + node.prim_count) as usize;
+            for triangle in &self.triangles[range] {
+                let point = closest_point([triangle.v0, triangle.v1, triangle.v2].map(Vec3::from), centre);
+                let distance = point.distance(centre);
+                if distance < radius {
+                    touch(Touch { point, distance });
+                }
+            }
+            true
+        });
+    }
+}
+
+/// The point of a triangle that is nearest to `p`.
+///
+/// Source: Ericson 2005, "Real-Time Collision Detection", 5.1.5 (Voronoi regions of corners and edges).
+fn closest_point([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
+    let (ab, ac) = (b - a, c - a);
+    let (d1, d2) = (ab.dot(p - a), ac.dot(p - a));
+    let (d3, d4) = (ab.dot(p - b), ac.dot(p - b));
+    let (d5, d6) = (ab.dot(p - c), ac.dot(p - c));
+    let (va, vb, vc) = (d3 * d6 - d5 * d4, d5 * d2 - d1 * d6, d1 * d4 - d3 * d2);
+    if d1 <= 0.0 && d2 <= 0.0 {
+        a
+    } else if d3 >= 0.0 && d4 <= d3 {
+        b
+    } else if d6 >= 0.0 && d5 <= d6 {
+        c
+    } else if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        a + ab * (d1 / (d1 - d3))
+    } else if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        a + ac * (d2 / (d2 - d6))
+    } else if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)))
+    } else {
+        (a * va + b * vb + c * vc) / (va + vb + vc)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::sampling::{r2, triangle_from_square};
+
+    #[test]
+    fn no_sampled_point_is_nearer_than_the_closest_point() {
+        let corners = [Vec3::new(0.0, 0.0, 0.0), Vec3::new(2.0, 0.3, 0.0), Vec3::new(0.5, 1.5, 0.7)];
+        for i in 0..200 {
+            let (xy, z) = (r2(i, 3), r2(i, 4).x);
+            let p = Vec3::new(xy.x * 5.0 - 2.0, xy.y * 5.0 - 2.0, z * 4.0 - 2.0);
+            let nearest = closest_point(corners, p);
+            for j in 0..400 {
+                let w = triangle_from_square(r2(j, 5));
+                let sample = corners[0] * w.x + corners[1] * w.y + corners[2] * w.z;
+                assert!(nearest.distance(p) <= sample.distance(p) + 1e-4, "{p}: {nearest} but {sample}");
+            }
+        }
+    }
+
+    #[test]
+    fn an_empty_scene_has_no_ground_and_no_walls() {
+        let collider = Collider::new(&Scene::default());
+        assert!(collider.below(Vec3::ZERO, 100.0).is_none());
+        collider.touches(Vec3::ZERO, 1.0, |_| panic!("nothing is there"));
+    }
+}

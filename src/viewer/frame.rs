@@ -1,0 +1,135 @@
+//! One frame, and when the next one is due.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use winit::event_loop::ControlFlow;
+
+use super::bake_worker::Worker;
+use super::canvas::{Change, Detail, Sight};
+use super::panels::{Command, Facts};
+use super::screen::{PanelShapes, Shown};
+use super::walkthrough::Walkthrough;
+use crate::render::View;
+
+/// A sketch is drawn out when nothing has moved for this long.
+const SETTLE_TIME: Duration = Duration::from_millis(250);
+
+/// Renewed light is wanted this many frame times after the last, so that showing it costs the bake little.
+const LIGHT_INTERVAL: f32 = 6.0;
+
+impl Walkthrough {
+    /// Draws one frame.
+    pub(super) fn draw_frame(&mut self) {
+        // The bake rests until the frame is on the screen.
+        let held = self.session.worker().map(Worker::hold);
+        let is_baking = held.is_some();
+        let seconds = self.pacer.begin();
+
+        // Follow the keys.
+        let is_moving = self.advance(seconds);
+        // Lay out the panels; what they ask for changes the next frame.
+        let (panels, commands) = self.lay_out();
+        // The picture and the panels on top.
+        let shown = self.show(&panels);
+
+        drop(held);
+        self.pacer.end(is_baking);
+        if is_moving || shown == Shown::Retry || !commands.is_empty() {
+            self.pacer.want();
+        }
+        if let Some(worker) = self.session.worker() {
+            worker.ask_for_light(Duration::from_secs_f32(LIGHT_INTERVAL * self.pacer.frame_seconds()));
+        }
+        for command in commands {
+            self.perform(command);
+        }
+    }
+
+    /// Moves the eye; whether it goes on moving.
+    fn advance(&mut self, seconds: f32) -> bool {
+        let intent = self.keys.intent();
+        let Some(place) = &mut self.session.place else { return false };
+        if !intent.is_moving() && !place.traveller.is_moving() {
+            return false;
+        }
+        place.traveller.advance(intent, seconds, &place.collider);
+        intent.is_moving() || place.traveller.is_moving()
+    }
+
+    fn lay_out(&mut self) -> (PanelShapes, Vec<Command>) {
+        let place = self.session.place.as_ref();
+        let facts = Facts {
+            scene: place.map(|place| &*place.scene),
+            light: self.session.light_state(),
+            num_elements: self.session.num_elements(),
+            position: place.map_or(glam::Vec3::ZERO, |place| place.traveller.eye.position),
+            is_walking: place.is_some_and(|place| place.traveller.is_walking()),
+            pace: place.map_or(0.0, |place| place.traveller.pace()),
+            is_captured: self.look.is_captured(),
+            frame_rate: self.pacer.frame_rate(),
+            frame_seconds: self.pacer.frame_seconds(),
+            adapter: &self.adapter,
+        };
+        let mut commands = Vec::new();
+        let shapes = self.gui.run(&self.window, |ui| commands = self.panels.ui(ui, &facts));
+        (shapes, commands)
+    }
+
+    fn show(&mut self, panels: &PanelShapes) -> Shown {
+        let picture = self.next_picture();
+        self.screen.show(&self.window, picture, panels)
+    }
+
+    /// What has to be drawn anew, and how finely; none where the last picture is still right.
+    fn next_picture(&mut self) -> Option<(Sight, Detail)> {
+        let place = self.session.place.as_ref()?;
+        let size = self.screen.size();
+        let sight = Sight {
+            scene: Arc::clone(&place.buffers),
+            light: place.light_version,
+            view: View::from_camera(&place.traveller.eye.camera(), size[0] as f32 / size[1] as f32),
+            look: self.panels.light.look(place.is_lit),
+            size,
+        };
+        let canvas = &self.screen.canvas;
+        let at_rest = if canvas.is_slow() && self.session.worker().is_some() { Detail::Plain } else { Detail::Fine };
+        let detail = match canvas.change(&sight) {
+            Change::Sight if canvas.is_slow() => {
+                self.settle = Some(Instant::now() + SETTLE_TIME);
+                Detail::Sketch
+            }
+            Change::Sight => Detail::Fine,
+            // Light alone does not make a picture coarse.
+            Change::Light if self.settle.is_some() => Detail::Sketch,
+            Change::Light => at_rest,
+            Change::None => {
+                let is_settled = self.settle.is_none_or(|settle| settle <= Instant::now());
+                if !is_settled || canvas.detail() >= Some(at_rest) {
+                    return None;
+                }
+                self.settle = None;
+                at_rest
+            }
+        };
+        Some((sight, detail))
+    }
+
+    /// Asks for the next frame where one is due, else says until when nothing needs to happen.
+    pub fn plan(&mut self) -> ControlFlow {
+        let now = Instant::now();
+        let wake = [self.gui.wake(), self.settle].into_iter().flatten().min();
+        if wake.is_some_and(|wake| wake <= now) {
+            self.gui.clear_wake();
+            self.pacer.want();
+        }
+        match self.pacer.due(self.session.worker().is_some()) {
+            Some(due) if due <= now => {
+                self.window.request_redraw();
+                ControlFlow::Wait
+            }
+            Some(due) => ControlFlow::WaitUntil(due),
+            None => wake.map_or(ControlFlow::Wait, ControlFlow::WaitUntil),
+        }
+    }
+}

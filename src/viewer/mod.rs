@@ -1,0 +1,50 @@
+//! Floor 6: the window in which one walks through a scene while its light is solved.
+//!
+//! [`app`] is winit's side, [`walkthrough`] the open window: events become movement ([`input`], [`travel`], [`walk`]) and
+//! [`panels::Command`]s ([`shortcuts`], [`commands`]); [`frame`] is the recipe of a frame. Loading and baking run in a
+//! thread ([`bake_worker`]); [`session`] holds what they bring. Deliberately absent: any light of its own; everything
+//! that is drawn comes from [`crate::render`].
+
+pub mod app;
+pub mod bake_worker;
+pub mod camera;
+pub mod collider;
+pub mod input;
+pub mod pacing;
+pub mod panels;
+pub mod session;
+pub mod settings;
+pub mod shortcuts;
+pub mod travel;
+pub mod walk;
+pub mod walkthrough;
+
+mod canvas;
+mod commands;
+mod frame;
+mod gui;
+mod screen;
+mod screenshot;
+
+use std::path::PathBuf;
+
+use crate::bake::BakeSettings;
+
+/// What the window opens with.
+#[derive(Clone, Debug)]
+pub struct ViewerOptions {
+    /// A glTF file; none opens the built-in scene.
+    pub scene: Option<PathBuf>,
+    /// How it is baked, where the file brings no light.
+    pub settings: BakeSettings,
+    /// Where to log the time of each frame.
+    pub frame_log: Option<PathBuf>,
+}
+
+/// Opens the window and returns when it is closed.
+///
+/// # Errors
+/// There is no display, or no graphics device that can draw into a window.
+pub fn run(options: ViewerOptions) -> anyhow::Result<()> {
+    app::run(options)
+}

@@ -1,0 +1,67 @@
+//! The key sheet.
+
+use egui::{Align2, Grid, Id};
+
+use super::theme;
+
+/// Keys and what they do, by subject.
+const SHEET: [(&str, &[(&str, &str)]); 4] = [
+    (
+        "Moving",
+        &[
+            ("W A S D", "forward, left, back, right"),
+            ("Shift", "run"),
+            ("F", "walk or fly"),
+            ("E Space / Q C", "up / down while flying"),
+            ("Wheel", "faster or slower"),
+            ("Home", "the whole scene in view"),
+            ("PgUp PgDn", "cameras of the file"),
+        ],
+    ),
+    (
+        "Looking",
+        &[
+            ("Drag", "look around with either button"),
+            ("Click", "keep the mouse, Esc gives it back"),
+            ("Arrows", "look around without a mouse"),
+        ],
+    ),
+    (
+        "Light",
+        &[
+            ("- +", "darker, brighter by a third of a stop"),
+            ("X", "automatic exposure"),
+            ("T", "tone map"),
+            ("V", "lit, light only, reflectance, normals"),
+            ("1 2", "direct, indirect light"),
+            ("B", "bake, or end the bake"),
+        ],
+    ),
+    (
+        "Window",
+        &[
+            ("P", "show or hide the panels"),
+            ("F11", "full screen"),
+            ("F12", "write a picture"),
+            ("H F1", "this sheet"),
+            ("Drop a file", "open it"),
+        ],
+    ),
+];
+
+pub fn help_ui(ctx: &egui::Context, is_open: &mut bool) {
+    let window = egui::Window::new("Keys").id(Id::unique("keys")).collapsible(false).resizable(false).open(is_open);
+    window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
+        Grid::new("sheet").num_columns(2).spacing([22.0, 5.0]).show(ui, |ui| {
+            for (subject, keys) in SHEET {
+                ui.label(theme::title(subject));
+                ui.end_row();
+                for (key, meaning) in keys {
+                    ui.label(theme::key(key));
+                    ui.label(*meaning);
+                    ui.end_row();
+                }
+            }
+        });
+    });
+}

@@ -1,0 +1,74 @@
+//! What the program has to say: a notice that goes away by itself, or trouble that stays until it is read.
+
+use std::time::{Duration, Instant};
+
+use egui::{Align2, Area, Frame, Id, RichText, Ui};
+
+use super::{Command, theme};
+
+/// How long a notice stays.
+const NOTICE_TIME: Duration = Duration::from_secs(4);
+
+/// A line that goes away by itself.
+pub struct Notice {
+    text: String,
+    until: Instant,
+}
+
+impl Notice {
+    /// A notice that begins now.
+    pub fn new(text: impl Into<String>) -> Self {
+        Self { text: text.into(), until: Instant::now() + NOTICE_TIME }
+    }
+}
+
+/// Something that did not work.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trouble {
+    /// What did not work.
+    pub title: String,
+    /// Why, in full.
+    pub text: String,
+}
+
+pub fn notice_ui(ctx: &egui::Context, notice: &mut Option<Notice>) {
+    let Some(shown) = notice else { return };
+    let left = shown.until.saturating_duration_since(Instant::now());
+    if left.is_zero() {
+        *notice = None;
+        return;
+    }
+    ctx.request_repaint_after(left);
+    let place = Area::new(Id::unique("notice")).anchor(Align2::LEFT_TOP, [16.0, 16.0]).interactable(false);
+    place.show(ctx, |ui| {
+        Frame::window(ui.style()).show(ui, |ui| ui.label(RichText::new(&shown.text).strong()));
+    });
+}
+
+pub fn trouble_ui(ctx: &egui::Context, trouble: &mut Option<Trouble>, commands: &mut Vec<Command>) {
+    let Some(shown) = trouble.clone() else { return };
+    let title = RichText::new(&shown.title).strong().color(theme::ALARM);
+    let window = egui::Window::new(title).id(Id::unique("trouble")).collapsible(false).resizable(false);
+    window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).default_width(520.0).show(ctx, |ui| {
+        ui.add(egui::Label::new(&shown.text).wrap().selectable(true));
+        ui.add_space(6.0);
+        ui.label(RichText::new("Drop another .glb or .gltf file on the window to open it.").weak());
+        ui.add_space(6.0);
+        buttons_ui(ui, &shown, trouble, commands);
+    });
+}
+
+fn buttons_ui(ui: &mut Ui, shown: &Trouble, trouble: &mut Option<Trouble>, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        if ui.button("Close").clicked() {
+            *trouble = None;
+        }
+        if ui.button("Open the built-in scene").clicked() {
+            *trouble = None;
+            commands.push(Command::OpenBuiltIn);
+        }
+        if ui.button("Copy the text").clicked() {
+            ui.copy_text(format!("{}: {}", shown.title, shown.text));
+        }
+    });
+}

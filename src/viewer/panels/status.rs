@@ -1,0 +1,26 @@
+//! The status line: where one is, how one moves, how fast frames are.
+
+use egui::{Align, Layout, RichText, Ui};
+
+use super::{Facts, LightState, theme};
+
+pub fn status_ui(ui: &mut Ui, facts: &Facts<'_>) {
+    ui.horizontal(|ui| {
+        let position = facts.position;
+        let way = if facts.is_walking { "walking" } else { "flying" };
+        ui.label(format!("{way}  {:.1} m/s", facts.pace));
+        ui.separator();
+        ui.monospace(format!("{:7.2} {:7.2} {:7.2} m", position.x, position.y, position.z));
+        if facts.is_captured {
+            ui.separator();
+            ui.label(RichText::new("Esc releases the mouse").color(theme::ACCENT));
+        }
+        if let LightState::Working { stage, done, .. } = facts.light {
+            ui.separator();
+            ui.label(RichText::new(format!("{} {:.0} %", stage.label(), 100.0 * done)).color(theme::ACCENT));
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.monospace(format!("{:3.0} fps  {:5.1} ms", facts.frame_rate, 1e3 * facts.frame_seconds));
+        });
+    });
+}

@@ -1,0 +1,83 @@
+//! Colours and spacing of the panels: dark slate, so that the picture stays the brightest thing, and lamp light as the
+//! one accent.
+
+use egui::{Color32, CornerRadius, Frame, Margin, RichText, Stroke, Theme, Visuals};
+
+/// The accent: warm lamp light.
+pub const ACCENT: Color32 = Color32::from_rgb(255, 190, 92);
+/// Something went wrong.
+pub const ALARM: Color32 = Color32::from_rgb(255, 118, 104);
+/// Something wants attention.
+pub const WARNING: Color32 = Color32::from_rgb(240, 190, 80);
+
+const PANEL: Color32 = Color32::from_rgba_premultiplied(19, 21, 25, 240);
+const TEXT: Color32 = Color32::from_gray(214);
+const STRONG_TEXT: Color32 = Color32::from_gray(245);
+const WEAK_TEXT: Color32 = Color32::from_gray(150);
+const LINE: Color32 = Color32::from_gray(50);
+
+/// Dresses the whole context.
+pub fn apply(ctx: &egui::Context) {
+    ctx.set_theme(Theme::Dark);
+    ctx.set_visuals_of(Theme::Dark, visuals());
+    ctx.all_styles_mut(|style| {
+        style.spacing.item_spacing = egui::vec2(8.0, 5.0);
+        style.spacing.button_padding = egui::vec2(9.0, 4.0);
+        style.spacing.slider_rail_height = 4.0;
+        style.spacing.scroll = egui::style::ScrollStyle::thin();
+        // Motion that asks for frames costs the bake; folding at once is as good.
+        style.animation_time = 0.0;
+    });
+    // Ctrl + and - belong to the desktop's scale, not to ours.
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
+}
+
+fn visuals() -> Visuals {
+    let mut visuals = Visuals::dark();
+    visuals.panel_fill = PANEL;
+    visuals.window_fill = Color32::from_rgb(24, 26, 31);
+    visuals.window_stroke = Stroke::new(1.0, LINE);
+    visuals.window_corner_radius = CornerRadius::same(8);
+    visuals.weak_text_color = Some(WEAK_TEXT);
+    visuals.warn_fg_color = WARNING;
+    visuals.error_fg_color = ALARM;
+    visuals.selection.bg_fill = Color32::from_rgb(122, 84, 28);
+    visuals.selection.stroke = Stroke::new(1.0, Color32::from_rgb(255, 226, 178));
+    visuals.slider_trailing_fill = true;
+    visuals.extreme_bg_color = Color32::from_rgb(11, 12, 15);
+    let widgets = &mut visuals.widgets;
+    widgets.noninteractive.fg_stroke.color = TEXT;
+    widgets.noninteractive.bg_stroke = Stroke::new(1.0, LINE);
+    widgets.inactive.fg_stroke.color = TEXT;
+    widgets.inactive.weak_bg_fill = Color32::from_rgb(45, 49, 57);
+    widgets.inactive.bg_fill = Color32::from_rgb(58, 63, 73);
+    widgets.hovered.weak_bg_fill = Color32::from_rgb(62, 68, 79);
+    widgets.hovered.bg_fill = Color32::from_rgb(76, 83, 96);
+    widgets.hovered.fg_stroke.color = STRONG_TEXT;
+    widgets.active.fg_stroke.color = STRONG_TEXT;
+    visuals
+}
+
+/// Frame of the side panel.
+#[must_use]
+pub fn side() -> Frame {
+    Frame::new().fill(PANEL).inner_margin(Margin { left: 14, right: 8, top: 10, bottom: 6 })
+}
+
+/// Frame of the status line.
+#[must_use]
+pub fn bar() -> Frame {
+    Frame::new().fill(PANEL).inner_margin(Margin::symmetric(12, 4))
+}
+
+/// Title of a section.
+#[must_use]
+pub fn title(text: &str) -> RichText {
+    RichText::new(text).strong().color(STRONG_TEXT).size(14.5)
+}
+
+/// A key as it is printed on the keyboard.
+#[must_use]
+pub fn key(text: &str) -> RichText {
+    RichText::new(text).monospace().color(ACCENT)
+}

@@ -1,0 +1,169 @@
+//! The window's surface: the picture of the scene, and the panels on top of it.
+
+use std::sync::Arc;
+
+use anyhow::Context;
+use winit::dpi::PhysicalSize;
+use winit::window::Window;
+
+use super::canvas::{Canvas, Detail, Sight};
+use crate::gpu::Gpu;
+
+/// Behind the panels while no scene is open.
+const EMPTY: wgpu::Color = wgpu::Color { r: 0.05, g: 0.055, b: 0.065, a: 1.0 };
+
+/// A device with a window's surface and what draws into it.
+pub struct Screen {
+    /// The window's device; the bake has its own.
+    pub gpu: Arc<Gpu>,
+    surface: wgpu::Surface<'static>,
+    config: wgpu::SurfaceConfiguration,
+    /// The picture behind the panels.
+    pub canvas: Canvas,
+    painter: egui_wgpu::Renderer,
+}
+
+/// Panels to draw.
+pub struct PanelShapes {
+    /// Triangles.
+    pub primitives: Vec<egui::ClippedPrimitive>,
+    /// Glyphs and pictures that are new or gone.
+    pub textures: egui::TexturesDelta,
+    /// Pixels of a point.
+    pub pixels_per_point: f32,
+}
+
+/// What became of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shown {
+    /// It is on the screen.
+    Yes,
+    /// The surface has been set up anew: draw it again.
+    Retry,
+    /// Nobody can see the window now.
+    No,
+}
+
+impl Screen {
+    /// A device that can draw into `window`, and the surface set up for it.
+    ///
+    /// # Errors
+    /// No graphics adapter can draw into this window.
+    pub fn new(window: &Arc<Window>) -> anyhow::Result<Self> {
+        let display = Box::new(Arc::clone(window));
+        let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_with_display_handle_from_env(display));
+        let surface = instance.create_surface(Arc::clone(window)).context("the window takes no graphics")?;
+        let gpu = Gpu::for_surface(instance, Some(&surface))?;
+        let config = configuration(&gpu, &surface, window.inner_size())?;
+        surface.configure(&gpu.device, &config);
+        let canvas = Canvas::new(&gpu, config.format);
+        let painter = egui_wgpu::Renderer::new(&gpu.device, config.format, egui_wgpu::RendererOptions::default());
+        Ok(Self { gpu: Arc::new(gpu), surface, config, canvas, painter })
+    }
+
+    /// Pixels across and down.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        [self.config.width, self.config.height]
+    }
+
+    /// Follows the window's size; an empty window keeps the last one.
+    pub fn resize(&mut self, size: PhysicalSize<u32>) {
+        let limit = self.gpu.device.limits().max_texture_dimension_2d;
+        if size.width > 0 && size.height > 0 {
+            (self.config.width, self.config.height) = (size.width.min(limit), size.height.min(limit));
+            self.surface.configure(&self.gpu.device, &self.config);
+        }
+    }
+
+    /// Draws a frame and shows it: a new picture where one is given, else the last one, and the panels on top.
+    pub fn show(&mut self, window: &Window, picture: Option<(Sight, Detail)>, panels: &PanelShapes) -> Shown {
+        // Even where the frame fails: panels say only once what is new.
+        self.update_textures(&panels.textures);
+        let frame = match self.surface.get_current_texture() {
+            wgpu::CurrentSurfaceTexture::Success(frame) | wgpu::CurrentSurfaceTexture::Suboptimal(frame) => frame,
+            wgpu::CurrentSurfaceTexture::Timeout | wgpu::CurrentSurfaceTexture::Occluded => return Shown::No,
+            wgpu::CurrentSurfaceTexture::Outdated
+            | wgpu::CurrentSurfaceTexture::Lost
+            | wgpu::CurrentSurfaceTexture::Validation => {
+                self.surface.configure(&self.gpu.device, &self.config);
+                return Shown::Retry;
+            }
+        };
+        let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
+        self.submit(&target, picture, panels);
+        if self.gpu.is_software() {
+            // The cores draw now: the bake shall not take them away before the frame is whole.
+            let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
+        }
+        window.pre_present_notify();
+        self.gpu.queue.present(frame);
+        Shown::Yes
+    }
+
+    fn submit(&mut self, target: &wgpu::TextureView, picture: Option<(Sight, Detail)>, panels: &PanelShapes) {
+        let Gpu { device, queue, .. } = &*self.gpu;
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("screen") });
+        if let Some((sight, detail)) = picture {
+            self.canvas.draw(&self.gpu, &mut encoder, sight, detail);
+        }
+        let has_picture = self.canvas.paste(&self.gpu, &mut encoder, target);
+        let screen =
+            egui_wgpu::ScreenDescriptor { size_in_pixels: self.size(), pixels_per_point: panels.pixels_per_point };
+        let mut uploads = self.painter.update_buffers(device, queue, &mut encoder, &panels.primitives, &screen);
+        let background = if has_picture { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(EMPTY) };
+        let mut pass = begin_pass(&mut encoder, target, background).forget_lifetime();
+        self.painter.render(&mut pass, &panels.primitives, &screen);
+        drop(pass);
+        uploads.push(encoder.finish());
+        queue.submit(uploads);
+        for id in &panels.textures.free {
+            self.painter.free_texture(id);
+        }
+    }
+
+    fn update_textures(&mut self, textures: &egui::TexturesDelta) {
+        for (&id, deltas) in &textures.set {
+            for delta in deltas {
+                self.painter.update_texture(&self.gpu.device, &self.gpu.queue, id, delta);
+            }
+        }
+    }
+}
+
+fn begin_pass<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    target: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+) -> wgpu::RenderPass<'e> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("panels"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: target,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load, store: wgpu::StoreOp::Store },
+        })],
+        ..Default::default()
+    })
+}
+
+/// Keeps time with the screen. The format stores what it is given: picture and panels encode sRGB themselves, and
+/// panels blend in that space.
+fn configuration(
+    gpu: &Gpu,
+    surface: &wgpu::Surface<'_>,
+    size: PhysicalSize<u32>,
+) -> anyhow::Result<wgpu::SurfaceConfiguration> {
+    let config = surface.get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1));
+    let mut config = config.with_context(|| format!("{} cannot draw into this window", gpu.name()))?;
+    let formats = surface.get_capabilities(&gpu.adapter).formats;
+    let is_plain = |format: &&wgpu::TextureFormat| {
+        matches!(format, wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Rgba8Unorm)
+    };
+    if let Some(&plain) = formats.iter().find(is_plain) {
+        config.format = plain;
+    }
+    config.present_mode = wgpu::PresentMode::AutoVsync;
+    Ok(config)
+}

@@ -1,0 +1,147 @@
+//! What the user has set in the panels, and the picture's look that follows from it.
+
+use glam::Vec3;
+
+use crate::render::{Exposure, Look, Shading, ToneMap};
+use crate::scene::Scene;
+
+/// Exposure changes by this much with one key press, stops.
+const EV_STEP: f32 = 1.0 / 3.0;
+/// What white paint shows before the first light is there.
+const WORK_LIGHT: Vec3 = Vec3::splat(1.0);
+
+/// Shadings with their names and meanings, in the order in which [`LightSettings::next_shading`] steps.
+pub const SHADINGS: [(Shading, &str, &str); 4] = [
+    (Shading::Lit, "Lit", "Light that the surfaces send"),
+    (Shading::IrradianceOnly, "Light only", "Light that arrives, as white paint would show it"),
+    (Shading::Albedo, "Reflectance", "Colours without light"),
+    (Shading::Normals, "Normals", "Directions of the surfaces"),
+];
+
+/// How the stored light is shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightSettings {
+    /// Exposure is metered from the picture.
+    pub is_auto: bool,
+    /// Exposure in stops where it is not metered.
+    pub ev: f32,
+    /// How radiance beyond white is shown.
+    pub tone_map: ToneMap,
+    /// What is shown of a surface.
+    pub shading: Shading,
+    /// Light straight from the lamps is shown.
+    pub direct: bool,
+    /// Light after at least one reflection is shown.
+    pub indirect: bool,
+    /// Look into rooms from outside, through the backs of their walls.
+    pub see_through_backs: bool,
+    /// A dial for each light group [g].
+    pub groups: Vec<GroupDial>,
+}
+
+/// Dims one light group.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroupDial {
+    /// Of the group.
+    pub name: String,
+    /// Factor on the baked light.
+    pub intensity: f32,
+    /// Switched on.
+    pub is_on: bool,
+}
+
+impl Default for LightSettings {
+    fn default() -> Self {
+        let look = Look::default();
+        Self {
+            is_auto: true,
+            ev: 0.0,
+            tone_map: look.tone_map,
+            shading: look.shading,
+            direct: true,
+            indirect: true,
+            see_through_backs: look.cull_back,
+            groups: Vec::new(),
+        }
+    }
+}
+
+impl LightSettings {
+    /// One dial a light group of the scene, all as baked.
+    pub fn reset_groups(&mut self, scene: &Scene) {
+        let dial = |name: &String| GroupDial { name: name.clone(), intensity: 1.0, is_on: true };
+        self.groups = scene.light_groups.iter().map(dial).collect();
+    }
+
+    /// Brighter or darker by `steps` thirds of a stop; exposure is set by hand from now on.
+    pub fn step_exposure(&mut self, steps: f32) {
+        self.is_auto = false;
+        self.ev += steps * EV_STEP;
+    }
+
+    /// The next way to show surfaces.
+    pub fn next_shading(&mut self) {
+        let at = SHADINGS.iter().position(|(shading, ..)| *shading == self.shading).unwrap_or(0);
+        self.shading = SHADINGS[(at + 1) % SHADINGS.len()].0;
+    }
+
+    /// The other tone map.
+    pub fn next_tone_map(&mut self) {
+        self.tone_map = match self.tone_map {
+            ToneMap::Neutral => ToneMap::Linear,
+            ToneMap::Linear => ToneMap::Neutral,
+        };
+    }
+
+    /// The look of the picture; before the first light is there, everything is shown in an even work light.
+    #[must_use]
+    pub fn look(&self, is_lit: bool) -> Look {
+        Look {
+            exposure: if self.is_auto { Exposure::Auto } else { Exposure::Ev(self.ev) },
+            tone_map: self.tone_map,
+            shading: self.shading,
+            direct: f32::from(self.direct),
+            indirect: f32::from(self.indirect),
+            ambient: if is_lit { Vec3::ZERO } else { WORK_LIGHT },
+            group_weights: self.groups.iter().map(GroupDial::weight).collect(),
+            cull_back: self.see_through_backs,
+            ..Look::default()
+        }
+    }
+}
+
+impl GroupDial {
+    fn weight(&self) -> Vec3 {
+        Vec3::splat(if self.is_on { self.intensity } else { 0.0 })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_group_that_is_off_has_no_weight_and_keeps_its_dial() {
+        let scene = Scene { light_groups: vec!["lamps".into(), "sky".into()], ..Scene::default() };
+        let mut settings = LightSettings::default();
+        settings.reset_groups(&scene);
+        settings.groups[0].intensity = 0.5;
+        settings.groups[1].is_on = false;
+        assert_eq!(settings.look(true).group_weights, [Vec3::splat(0.5), Vec3::ZERO]);
+        assert_eq!(settings.groups[1].intensity, 1.0);
+    }
+
+    #[test]
+    fn an_unlit_scene_is_not_black() {
+        let settings = LightSettings::default();
+        assert!(settings.look(false).ambient.min_element() > 0.0);
+        assert_eq!(settings.look(true).ambient, Vec3::ZERO);
+    }
+
+    #[test]
+    fn three_steps_of_exposure_are_one_stop() {
+        let mut settings = LightSettings::default();
+        settings.step_exposure(3.0);
+        assert!(matches!(settings.look(true).exposure, Exposure::Ev(ev) if (ev - 1.0).abs() < 1e-6));
+    }
+}

@@ -1,0 +1,171 @@
+//! The open window and what its events mean; what they ask for is done in [`super::commands`], and a frame is drawn by
+//! [`super::frame`].
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use winit::event::{DeviceEvent, ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
+use winit::event_loop::EventLoopProxy;
+use winit::keyboard::{Key, NamedKey, PhysicalKey};
+use winit::window::Window;
+
+use super::ViewerOptions;
+use super::bake_worker::{News, Source};
+use super::gui::Gui;
+use super::input::{Keys, MouseLook};
+use super::pacing::Pacer;
+use super::panels::{Notice, Panels, Trouble};
+use super::screen::Screen;
+use super::session::{Outcome, Session};
+use super::shortcuts::command_of;
+use crate::bake::BakeSettings;
+
+/// Pixels of a touchpad's scroll that count as one notch of a wheel.
+const PIXELS_A_NOTCH: f64 = 40.0;
+
+/// The open window and everything that lives as long.
+pub struct Walkthrough {
+    pub(super) window: Arc<Window>,
+    pub(super) screen: Screen,
+    pub(super) gui: Gui,
+    pub(super) panels: Panels,
+    pub(super) session: Session,
+    pub(super) keys: Keys,
+    pub(super) look: MouseLook,
+    pub(super) pacer: Pacer,
+    /// When a sketch shall be drawn out.
+    pub(super) settle: Option<Instant>,
+    /// As given on the command line; the first bake's.
+    pub(super) settings: BakeSettings,
+    pub(super) adapter: String,
+}
+
+impl Walkthrough {
+    /// Sets the window up and begins to load.
+    ///
+    /// # Errors
+    /// No graphics device, no thread, or a frame log that cannot be written.
+    pub fn new(window: Arc<Window>, options: &ViewerOptions, proxy: EventLoopProxy<News>) -> anyhow::Result<Self> {
+        let screen = Screen::new(&window)?;
+        let gui = Gui::new(&window, screen.gpu.device.limits().max_texture_dimension_2d);
+        let refresh_rate = window.current_monitor().and_then(|monitor| monitor.refresh_rate_millihertz());
+        let pacer = Pacer::new(refresh_rate.map_or(60.0, |rate| rate as f32 / 1e3), options.frame_log.as_deref())?;
+        let mut session = Session::new(Arc::clone(&screen.gpu), proxy);
+        let source = options.scene.clone().map_or_else(Source::default, Source::of);
+        session.open(source, options.settings)?;
+        Ok(Self {
+            adapter: screen.gpu.name(),
+            panels: Panels::new(options.settings.quality),
+            settings: options.settings,
+            keys: Keys::default(),
+            look: MouseLook::default(),
+            window,
+            screen,
+            gui,
+            session,
+            pacer,
+            settle: None,
+        })
+    }
+
+    /// The worker has something to tell.
+    pub fn on_news(&mut self, news: News) {
+        match self.session.hear(news) {
+            Outcome::Changed => {}
+            Outcome::Opened => self.welcome(),
+            Outcome::Note(text) => self.panels.notice = Some(Notice::new(text)),
+            Outcome::Trouble(title, text) => self.panels.trouble = Some(Trouble { title, text }),
+        }
+        self.pacer.want();
+    }
+
+    fn welcome(&mut self) {
+        let Some(place) = &self.session.place else { return };
+        self.window.set_title(&format!("{} - Hemicube", place.scene.name));
+        self.panels.light.reset_groups(&place.scene);
+        self.panels.trouble = None;
+    }
+
+    /// An event of the window; true where the window shall close.
+    pub fn on_window_event(&mut self, event: &WindowEvent) -> bool {
+        let is_looking = matches!(event, WindowEvent::CursorMoved { .. }) && self.look.is_active();
+        if !is_looking && *event != WindowEvent::RedrawRequested && self.gui.on_event(&self.window, event).repaint {
+            self.pacer.want();
+        }
+        match event {
+            WindowEvent::CloseRequested => return true,
+            WindowEvent::RedrawRequested => self.draw_frame(),
+            WindowEvent::Resized(size) => {
+                self.screen.resize(*size);
+                self.pacer.want();
+            }
+            WindowEvent::Focused(false) => {
+                self.keys.release_all();
+                self.look.release(&self.window);
+            }
+            WindowEvent::DroppedFile(path) => self.open(path.clone()),
+            WindowEvent::KeyboardInput { event, .. } if !self.gui.has_keyboard() => self.on_key(event),
+            WindowEvent::MouseInput { state: ElementState::Pressed, button, .. } if !self.gui.has_pointer() => {
+                self.look.press(*button, &self.window);
+                self.pacer.want();
+            }
+            WindowEvent::MouseInput { state: ElementState::Released, button, .. } => {
+                self.look.lift(*button, &self.window);
+                self.pacer.want();
+            }
+            WindowEvent::MouseWheel { delta, .. } if !self.gui.has_pointer() => self.on_wheel(*delta),
+            WindowEvent::CursorMoved { position, .. } => {
+                let turn = self.look.pointer_motion(*position);
+                self.turn(turn);
+            }
+            _ => {}
+        }
+        false
+    }
+
+    /// Raw motion of the mouse.
+    pub fn on_device_event(&mut self, event: &DeviceEvent) {
+        if let DeviceEvent::MouseMotion { delta } = event {
+            let turn = self.look.raw_motion(*delta);
+            self.turn(turn);
+        }
+    }
+
+    fn turn(&mut self, turn: Option<(f32, f32)>) {
+        if let (Some((left, up)), Some(place)) = (turn, &mut self.session.place) {
+            place.traveller.eye.turn(left, up);
+            self.pacer.want();
+        }
+    }
+
+    fn on_key(&mut self, event: &KeyEvent) {
+        let is_down = event.state == ElementState::Pressed;
+        if let PhysicalKey::Code(code) = event.physical_key {
+            self.keys.set(code, is_down);
+        }
+        if is_down && event.logical_key == Key::Named(NamedKey::Escape) {
+            self.escape();
+        } else if is_down && let Some(command) = command_of(event) {
+            self.perform(command);
+        }
+        self.pacer.want();
+    }
+
+    /// Gives back what is open, one thing at a time.
+    fn escape(&mut self) {
+        if !self.look.release(&self.window) && !std::mem::take(&mut self.panels.shows_help) {
+            self.panels.trouble = None;
+        }
+    }
+
+    fn on_wheel(&mut self, delta: MouseScrollDelta) {
+        let notches = match delta {
+            MouseScrollDelta::LineDelta(_, lines) => lines,
+            MouseScrollDelta::PixelDelta(pixels) => (pixels.y / PIXELS_A_NOTCH) as f32,
+        };
+        if let Some(place) = &mut self.session.place {
+            place.traveller.change_speed(notches);
+            self.pacer.want();
+        }
+    }
+}
