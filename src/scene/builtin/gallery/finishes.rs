@@ -12,7 +12,7 @@ const SKY: Vec3 = Vec3::new(2400.0, 2900.0, 3500.0);
 /// The luminous ceiling, nit.
 const CEILING_PANEL: Vec3 = Vec3::new(1000.0, 960.0, 880.0);
 /// An opal globe, nit: 40 cd from a disc of 9 cm radius.
-const GLOBE: Vec3 = Vec3::new(2100.0, 1500.0, 820.0);
+const GLOBE: Vec3 = Vec3::new(1900.0, 1500.0, 1170.0);
 
 /// Side of the square that the plank texture covers, metres.
 const PLANKS_SIZE: f32 = 1.2;

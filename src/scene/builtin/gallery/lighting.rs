@@ -12,9 +12,9 @@ use crate::scene::LightKind;
 /// Direction in which sunlight travels, before it is made a unit vector: 38 degrees down, a little to the east.
 const SUN: Vec3 = Vec3::new(0.30, -0.80, -0.975);
 /// A low sun behind haze, lux on a surface that faces it.
-const SUN_LUX: Vec3 = Vec3::new(4600.0, 3950.0, 3100.0);
+const SUN_LUX: Vec3 = Vec3::new(4300.0, 4000.0, 3500.0);
 /// Warm white of the lamps with luminance one.
-const WARM: Vec3 = Vec3::new(1.36, 0.95, 0.52);
+const WARM: Vec3 = Vec3::new(1.22, 0.96, 0.75);
 /// Foot of each pendant's cord.
 const PENDANTS: [[f32; 2]; 2] = [[-4.6, 3.0], [-1.8, 1.5]];
 const GLOBE_RADIUS: f32 = 0.09;
@@ -62,12 +62,12 @@ fn shade() -> Shape {
     lathe(&outside, 16).join(lathe(&inside, 16))
 }
 
-/// The spot that picks out the prism, in its housing under the ceiling.
+/// The spot that picks out the sphere before the red wall, in its housing under the ceiling.
 pub(super) fn spot(builder: &mut Builder, finishes: &Finishes) {
-    let position = Vec3::new(-1.7, 2.85, 3.9);
-    let direction = (Vec3::new(-3.1, 1.45, 4.8) - position).normalize();
-    let kind = LightKind::Spot { position, direction, inner_angle: 0.20, outer_angle: 0.34 };
-    builder.light("spot", kind, WARM * 800.0, "spot");
+    let position = Vec3::new(-3.9, 2.85, 2.6);
+    let direction = (Vec3::new(-5.8, 1.3, 1.2) - position).normalize();
+    let kind = LightKind::Spot { position, direction, inner_angle: 0.15, outer_angle: 0.32 };
+    builder.light("spot", kind, WARM * 600.0, "spot");
     // The light sits in the open mouth of the tube; the tube's axis is -Y before it is turned.
     let tube = [(0.045, 0.0), (0.06, 0.0), (0.06, 0.16), (0.0, 0.16)].map(Vec2::from);
     let bore = [(0.0, 0.02), (0.045, 0.02), (0.045, 0.0)].map(Vec2::from);

@@ -2,8 +2,8 @@
 //!
 //! The hall is white: sunlight falls through three high windows past a row of columns on to an oak floor, and a flight
 //! of steps leads to a dais before a blue-green wall under a luminous ceiling. A doorway joins it to a dim room with a
-//! deep red wall, two pendant lamps and a spot. X runs from the red room to the dais, Z from the pictures to the
-//! windows.
+//! deep red wall, two pendant lamps and a spot on a white sphere. X runs from the red room to the dais, Z from the
+//! pictures to the windows.
 
 mod exhibits;
 mod finishes;
@@ -28,9 +28,9 @@ pub fn gallery() -> Scene {
     exhibits::pictures(&mut builder, &finishes);
     exhibits::bench(&mut builder, &finishes);
     builder.camera("entrance", [0.4, 1.6, 3.9], [8.1, 1.45, 3.1], 60.0);
-    builder.camera("stairs", [9.6, 2.62, 1.9], [2.4, 0.5, 4.7], 60.0);
+    builder.camera("stairs", [9.3, 2.62, 3.2], [2.6, 0.2, 4.3], 60.0);
     builder.camera("red room", [-0.9, 1.6, 5.0], [-5.0, 1.35, 1.9], 60.0);
-    builder.camera("detail", [-4.25, 1.6, 2.35], [-5.6, 1.2, 1.1], 50.0);
+    builder.camera("detail", [-4.9, 1.55, 2.75], [-5.9, 1.2, 1.1], 50.0);
     builder.finish()
 }
 

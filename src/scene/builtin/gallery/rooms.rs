@@ -23,7 +23,7 @@ pub(super) const WINDOWS_Y: [f32; 2] = [2.4, 3.6];
 pub(super) const DAIS_HEIGHT: f32 = 6.0 * RISER;
 /// South and north edges of the pedestals: (x, z) of the low corner; all are `PEDESTAL` wide.
 pub(super) const PEDESTALS: [(&str, [f32; 2]); 3] =
-    [("torus", [5.7, 0.9]), ("sphere", [-5.8, 0.9]), ("prism", [-3.4, 4.5])];
+    [("torus", [5.7, 0.9]), ("sphere", [-6.1, 0.9]), ("prism", [-3.4, 4.5])];
 /// Side of a pedestal.
 pub(super) const PEDESTAL: f32 = 0.6;
 
