@@ -22,7 +22,46 @@ fn in_a_furnace_every_vertex_has_the_closed_form_light() {
         let radiosity = exitance + reflectance * (*direct + *indirect);
         worst = worst.max(((radiosity - exact) / exact).abs().max_element());
     }
-    println!("{:?}", bake.report);
     assert!(worst < 5e-3, "worst deviation {worst}");
     assert!(bake.report.energy.imbalance < 1e-3, "{:?}", bake.report.energy);
+}
+
+/// Two point lights in two groups, one twice as bright as when it burns alone in the other scene.
+fn lamp_room(intensities: [f32; 2]) -> hemicube::scene::Scene {
+    let mut builder = scenes::SceneBuilder::default();
+    let white = builder.material(Vec3::splat(0.7), Vec3::ZERO);
+    let red = builder.material(Vec3::new(0.6, 0.1, 0.1), Vec3::ZERO);
+    builder.room(Vec3::ZERO, Vec3::new(3.0, 2.0, 2.5), [white, white, red, white, white, white]);
+    builder.point_light(Vec3::new(1.0, 1.5, 1.0), Vec3::splat(intensities[0]), 0);
+    builder.point_light(Vec3::new(2.2, 1.7, 1.8), Vec3::splat(intensities[1]), 1);
+    builder.build(2)
+}
+
+#[test]
+fn light_is_linear_and_groups_do_not_mix() {
+    let Some(gpu) = gpu() else { return };
+    let settings = BakeSettings { element_size: Some(0.4), ..BakeSettings::preset(Quality::Draft) };
+    let bake = |intensities| bake(gpu, &lamp_room(intensities), &settings, &Unwatched).unwrap().baked.light;
+    let (one, other) = (bake([100.0, 30.0]), bake([200.0, 30.0]));
+    // Which patches shoot together depends on the powers, so the sums differ by what is left unshot.
+    for (group, factor) in [(0, 2.0), (1, 1.0)] {
+        let sum = |light: &hemicube::baked::VertexLight| {
+            let group = &light.groups[group];
+            group.direct.iter().chain(&group.indirect).map(|e| f64::from(e.y)).sum::<f64>()
+        };
+        let ratio = sum(&other) / sum(&one);
+        assert!((ratio / factor - 1.0).abs() < 2e-3, "group {group} grew by {ratio}");
+    }
+}
+
+#[test]
+fn in_a_closed_room_no_light_escapes() {
+    let Some(gpu) = gpu() else { return };
+    let settings = BakeSettings { element_size: Some(0.4), ..BakeSettings::preset(Quality::Draft) };
+    let report = bake(gpu, &lamp_room([100.0, 30.0]), &settings, &Unwatched).unwrap().report;
+    assert!(report.energy.escaped < 1e-4 * report.energy.emitted, "{:?}", report.energy);
+    assert!(report.energy.imbalance < 1e-3 && report.unshot_share < 0.01, "{report:?}");
+    // 4 pi I arrives from each lamp; vertices sample it, so a coarse mesh is good for a few percent.
+    let flux = 4.0 * std::f64::consts::PI * 130.0;
+    assert!((report.energy.emitted / flux - 1.0).abs() < 0.05, "{} lm of {flux}", report.energy.emitted);
 }

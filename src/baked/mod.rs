@@ -43,16 +43,16 @@ pub struct BakedScene {
 /// Irradiance at vertices, direct and indirect apart, light group by light group.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VertexLight {
-    /// Light of each group [g], in the order of [`Scene::light_groups`].
+    /// Light of each group `[g]`, in the order of [`Scene::light_groups`].
     pub groups: Vec<GroupLight>,
 }
 
 /// Irradiance that one light group brings, lux per channel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GroupLight {
-    /// Straight from the lights [v].
+    /// Straight from the lights `[v]`.
     pub direct: Vec<Vec3>,
-    /// After at least one reflection [v].
+    /// After at least one reflection `[v]`.
     pub indirect: Vec<Vec3>,
 }
 

@@ -93,7 +93,7 @@ pub fn material_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries })
 }
 
-/// Bind groups of all materials [m].
+/// Bind groups of all materials `[m]`.
 #[must_use]
 pub fn material_bind_groups(gpu: &Gpu, scene: &Scene) -> Vec<wgpu::BindGroup> {
     let layout = material_layout(gpu);

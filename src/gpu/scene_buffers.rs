@@ -22,13 +22,13 @@ const COMFORTABLE_SURFACES: std::ops::RangeInclusive<f32> = 1.0 / 1024.0..=64.0;
 
 /// A lit scene on the device.
 pub struct SceneBuffers {
-    /// [`GpuVertex`] of each vertex [v].
+    /// [`GpuVertex`] of each vertex `[v]`.
     pub vertices: wgpu::Buffer,
     /// Three u32 a triangle, batch by batch.
     pub indices: wgpu::Buffer,
     /// Binds the irradiance as [`light_layout`] says.
     pub light: wgpu::BindGroup,
-    /// Bind groups of the materials [m].
+    /// Bind groups of the materials `[m]`.
     pub materials: Vec<wgpu::BindGroup>,
     /// Triangles by material, those that blend last.
     pub batches: Vec<Batch>,

@@ -30,21 +30,21 @@ pub struct MeshSettings {
 /// Elements, patches and the vertices that carry light.
 #[derive(Clone, Debug, Default)]
 pub struct PatchMesh {
-    /// Vertices [v] of the elements: those of the scene, flipped copies for backs, and edge midpoints.
+    /// Vertices `[v]` of the elements: those of the scene, flipped copies for backs, and edge midpoints.
     pub vertices: Vec<Vertex>,
-    /// The light vertex of each vertex [v].
+    /// The light vertex of each vertex `[v]`.
     pub light_vertex_of: Vec<u32>,
-    /// Places [l] at which irradiance is stored.
+    /// Places `[l]` at which irradiance is stored.
     pub light_vertices: Vec<LightVertex>,
-    /// Elements [e]; the fronts of one input triangle side by side, then its backs in the same order.
+    /// Elements `[e]`; the fronts of one input triangle side by side, then its backs in the same order.
     pub elements: Vec<Element>,
-    /// Patches [p].
+    /// Patches `[p]`.
     pub patches: Vec<Patch>,
     /// Elements of all patches, patch by patch.
     pub members: Vec<ElementId>,
     /// Children of the nodes of all bisection trees, in pairs.
     pub tree: Vec<Node>,
-    /// Tree and element range of each input triangle [t].
+    /// Tree and element range of each input triangle `[t]`.
     pub roots: Vec<Root>,
 }
 
@@ -60,7 +60,7 @@ pub struct LightVertex {
 /// The smallest receiver of light: a triangle within one input triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Element {
-    /// Its vertices [v], counter-clockwise seen from the side that reflects.
+    /// Its vertices `[v]`, counter-clockwise seen from the side that reflects.
     pub vertices: [u32; 3],
     /// The input triangle it is a part of.
     pub triangle: TriangleId,

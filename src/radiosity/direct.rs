@@ -40,7 +40,7 @@ impl<'a> DirectLight<'a> {
         Self { scene, tracer, emitters: emitters(scene, mesh), num_penumbra_rays }
     }
 
-    /// Direct irradiance [place][group] at all viewpoints, lux per channel; zero for those not reached when cancelled.
+    /// Direct irradiance `[place][group]` at all viewpoints, lux per channel; zero for those not reached when cancelled.
     pub fn irradiance(&self, viewpoints: &[Viewpoint], progress: &dyn Progress) -> Field {
         let num_groups = self.scene.light_groups.len();
         let mut field = Field::zero(viewpoints.len(), num_groups);
@@ -65,14 +65,14 @@ impl<'a> DirectLight<'a> {
     /// Adds the light of every group at one viewpoint.
     fn add_to(&self, viewpoint: &Viewpoint, groups: &mut [Vec3]) {
         for light in &self.scene.lights {
-            groups[light.group.index()] += self.from_punctual(light, viewpoint);
+            groups[light.group.index()] += self.of_punctual(light, viewpoint);
         }
         for emitter in &self.emitters {
-            groups[emitter.group.index()] += self.from_emitter(emitter, viewpoint);
+            groups[emitter.group.index()] += self.of_emitter(emitter, viewpoint);
         }
     }
 
-    fn from_punctual(&self, light: &Light, viewpoint: &Viewpoint) -> Vec3 {
+    fn of_punctual(&self, light: &Light, viewpoint: &Viewpoint) -> Vec3 {
         let arrival = light.arrival(viewpoint.position);
         let cosine = viewpoint.normal.dot(arrival.to_light);
         if cosine <= 0.0 || arrival.irradiance.max_element() <= NEGLIGIBLE {
@@ -82,7 +82,7 @@ impl<'a> DirectLight<'a> {
         arrival.irradiance * (cosine * passing)
     }
 
-    fn from_emitter(&self, emitter: &Emitter, viewpoint: &Viewpoint) -> Vec3 {
+    fn of_emitter(&self, emitter: &Emitter, viewpoint: &Viewpoint) -> Vec3 {
         let unoccluded = emitter.unoccluded(viewpoint.position, viewpoint.normal);
         if unoccluded.max_element() <= NEGLIGIBLE {
             return Vec3::ZERO;

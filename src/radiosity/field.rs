@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// Values [place][group], the groups of one place side by side.
+/// Values `[place][group]`, the groups of one place side by side.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Field {
     num_groups: usize,

@@ -32,7 +32,7 @@ pub struct GatherSettings {
 
 /// Indirect light at sites.
 pub struct Gathered {
-    /// Indirect irradiance [site][group], lux per channel.
+    /// Indirect irradiance `[site][group]`, lux per channel.
     pub indirect: Field,
     /// The site lies on an open surface, not inside or behind a wall.
     pub is_valid: Vec<bool>,
@@ -52,7 +52,7 @@ struct Sight {
     distance: f32,
 }
 
-/// Gathers the reflected `radiosity` [e][g] at all `sites`.
+/// Gathers the reflected `radiosity` `[e][g]` at all `sites`.
 ///
 /// Equation: E = sum over elements of F(site, e) B_e.
 ///

@@ -21,7 +21,7 @@ const TOLERANCE: f32 = 1e-4;
 /// The slowest room (reflectance 0.99) loses 1 % a pass.
 const MAX_PASSES: usize = 1000;
 
-/// Indirect irradiance on patches [p][g]: that of the solution where no row is kept, else the solution of the system.
+/// Indirect irradiance on patches `[p][g]`: that of the solution where no row is kept, else the solution of the system.
 #[must_use]
 pub fn polish(mesh: &PatchMesh, solution: &Solution, rows: &RowStore) -> Field {
     let num_groups = solution.direct.num_groups();
@@ -56,7 +56,7 @@ pub fn polish(mesh: &PatchMesh, solution: &Solution, rows: &RowStore) -> Field {
     on_patches
 }
 
-/// Reflected radiosity [e][g] from direct irradiance on elements and indirect irradiance on patches. Emission is left out:
+/// Reflected radiosity `[e][g]` from direct irradiance on elements and indirect irradiance on patches. Emission is left out:
 /// it is direct light.
 #[must_use]
 pub fn reflected_radiosity(mesh: &PatchMesh, direct: &Field, indirect_on_patches: &Field) -> Field {

@@ -35,11 +35,11 @@ pub struct ProgressiveSettings {
 /// The light on elements and what is still unshot.
 #[derive(Clone, Debug)]
 pub struct Solution {
-    /// Direct irradiance [e][g], lux per channel.
+    /// Direct irradiance `[e][g]`, lux per channel.
     pub direct: Field,
-    /// Indirect irradiance [e][g], lux per channel.
+    /// Indirect irradiance `[e][g]`, lux per channel.
     pub indirect: Field,
-    /// Unshot power [p][g], lumen per channel.
+    /// Unshot power `[p][g]`, lumen per channel.
     pub unshot: Field,
     /// Where the power went.
     pub energy: Energy,
@@ -80,7 +80,7 @@ pub struct Progressive<'a> {
 }
 
 impl<'a> Progressive<'a> {
-    /// Starts from direct irradiance [e][g] on the elements.
+    /// Starts from direct irradiance `[e][g]` on the elements.
     #[must_use]
     pub fn new(mesh: &'a PatchMesh, sites: Sites, direct: Field, settings: ProgressiveSettings) -> Self {
         let num_groups = direct.num_groups();
@@ -207,7 +207,7 @@ impl<'a> Progressive<'a> {
 }
 
 impl Solution {
-    /// Irradiance [g] that the unshot power would bring if it were spread evenly, all its reflections included: Cohen's
+    /// Irradiance `[g]` that the unshot power would bring if it were spread evenly, all its reflections included: Cohen's
     /// ambient term, for the display of an unfinished solution.
     #[must_use]
     pub fn ambient_estimate(&self, mesh: &PatchMesh) -> Vec<Vec3> {

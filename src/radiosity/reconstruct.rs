@@ -50,7 +50,7 @@ pub fn dark_scene(scene: &Scene, mesh: &PatchMesh) -> BakedScene {
     BakedScene { scene, light }
 }
 
-/// Light at light vertices [l][g] spread to the vertices [v] of the drawn mesh.
+/// Light at light vertices `[l][g]` spread to the vertices `[v]` of the drawn mesh.
 #[must_use]
 pub fn vertex_light(mesh: &PatchMesh, direct: &Field, indirect: &Field) -> VertexLight {
     let of_group = |field: &Field, g: usize| mesh.light_vertex_of.iter().map(|&l| field.at(l as usize)[g]).collect();

@@ -28,7 +28,7 @@ impl Sites {
         Self { height: HEIGHT * (high - low).max_element() }
     }
 
-    /// One viewpoint a light vertex [l], with its shading normal.
+    /// One viewpoint a light vertex `[l]`, with its shading normal.
     #[must_use]
     pub fn of_light_vertices(&self, mesh: &PatchMesh) -> Vec<Viewpoint> {
         let mut sum_of_centroids = vec![(Vec3::ZERO, 0.0); mesh.light_vertices.len()];

@@ -48,7 +48,7 @@ pub struct Look {
     pub indirect: f32,
     /// Radiance that ideal white paint shows everywhere in addition: it makes unlit scenes visible.
     pub ambient: Vec3,
-    /// Factor on the light of each group [g], and on the glow of its lamps; 1 where the list ends early.
+    /// Factor on the light of each group `[g]`, and on the glow of its lamps; 1 where the list ends early.
     pub group_weights: Vec<Vec3>,
     /// Linear display colour where nothing is seen, untouched by exposure.
     pub background: Vec3,

@@ -2,7 +2,7 @@
 //!
 //! The end of the route: a [`BakedScene`](crate::baked::BakedScene) is uploaded as
 //! [`SceneBuffers`](crate::gpu::SceneBuffers) and drawn by a [`Renderer`], whose [`frame`] reads as a recipe of passes;
-//! each pass is a file here and a shader of the same stem. [`picture`] does it all without a window.
+//! each pass is a file here and a shader of the same stem. [`picture()`] does it all without a window.
 //! Deliberately absent: a render graph, a scene tree, view-dependent light; light comes from the vertices.
 
 pub mod compare;

@@ -26,13 +26,13 @@ use crate::base::ids::{InstanceId, MaterialId, TriangleId};
 pub struct Scene {
     /// File stem, or the name of a built-in scene.
     pub name: String,
-    /// Vertices [v], as the file splits them (at seams of normals and texture coordinates).
+    /// Vertices `[v]`, as the file splits them (at seams of normals and texture coordinates).
     pub vertices: Vec<Vertex>,
-    /// Triangles [t], those of one instance side by side.
+    /// Triangles `[t]`, those of one instance side by side.
     pub triangles: Vec<Triangle>,
-    /// Placed primitives [i].
+    /// Placed primitives `[i]`.
     pub instances: Vec<Instance>,
-    /// Materials [m].
+    /// Materials `[m]`.
     pub materials: Vec<Material>,
     /// Textures that material slots name.
     pub textures: Vec<Texture>,
@@ -40,7 +40,7 @@ pub struct Scene {
     pub lights: Vec<Light>,
     /// Cameras in file order.
     pub cameras: Vec<Camera>,
-    /// Names of the light groups [g]; lights and emissive materials say which group is theirs.
+    /// Names of the light groups `[g]`; lights and emissive materials say which group is theirs.
     pub light_groups: Vec<String>,
     /// Stored light found in the file: vertex attributes whose name begins with `_IRRADIANCE_`, one value a vertex.
     pub irradiance: Vec<VertexAttribute>,
@@ -90,7 +90,7 @@ pub struct Instance {
 pub struct VertexAttribute {
     /// Name as in the file.
     pub name: String,
-    /// Values [v].
+    /// Values `[v]`.
     pub values: Vec<Vec3>,
 }
 

@@ -1,7 +1,7 @@
 //! Floor 6: the window in which one walks through a scene while its light is solved.
 //!
 //! [`app`] is winit's side, [`walkthrough`] the open window: events become movement ([`input`], [`travel`], [`walk`]) and
-//! [`panels::Command`]s ([`shortcuts`], [`commands`]); [`frame`] is the recipe of a frame. Loading and baking run in a
+//! [`panels::Command`]s ([`shortcuts`], `commands`); `frame` is the recipe of a frame. Loading and baking run in a
 //! thread ([`bake_worker`]); [`session`] holds what they bring. Deliberately absent: any light of its own; everything
 //! that is drawn comes from [`crate::render`].
 

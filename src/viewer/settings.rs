@@ -35,7 +35,7 @@ pub struct LightSettings {
     pub indirect: bool,
     /// Look into rooms from outside, through the backs of their walls.
     pub see_through_backs: bool,
-    /// A dial for each light group [g].
+    /// A dial for each light group `[g]`.
     pub groups: Vec<GroupDial>,
 }
 

@@ -1,5 +1,5 @@
-//! The open window and what its events mean; what they ask for is done in [`super::commands`], and a frame is drawn by
-//! [`super::frame`].
+//! The open window and what its events mean; what they ask for is done in `commands`, and a frame is drawn by
+//! `frame`.
 
 use std::sync::Arc;
 use std::time::Instant;

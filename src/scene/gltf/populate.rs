@@ -112,7 +112,7 @@ impl<'a> Population<'a> {
         Ok(())
     }
 
-    /// The filled scene with notes on what was passed over, and the light definition behind each of its lights [l].
+    /// The filled scene with notes on what was passed over, and the light definition behind each of its lights `[l]`.
     pub fn finish(mut self) -> (Scene, Vec<usize>) {
         let counts = [
             ("primitives of points or lines, or without positions, ignored", self.oddities.not_triangles),

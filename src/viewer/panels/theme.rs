@@ -59,13 +59,11 @@ fn visuals() -> Visuals {
 }
 
 /// Frame of the side panel.
-#[must_use]
 pub fn side() -> Frame {
     Frame::new().fill(PANEL).inner_margin(Margin { left: 14, right: 8, top: 10, bottom: 6 })
 }
 
 /// Frame of the status line.
-#[must_use]
 pub fn bar() -> Frame {
     Frame::new().fill(PANEL).inner_margin(Margin::symmetric(12, 4))
 }
