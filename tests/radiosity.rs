@@ -65,3 +65,21 @@ fn in_a_closed_room_no_light_escapes() {
     let flux = 4.0 * std::f64::consts::PI * 130.0;
     assert!((report.energy.emitted / flux - 1.0).abs() < 0.05, "{} lm of {flux}", report.energy.emitted);
 }
+
+#[test]
+fn a_wall_of_fine_holes_bakes_to_finite_light() {
+    let Some(gpu) = gpu() else { return };
+    let settings = BakeSettings { element_size: Some(0.25), ..BakeSettings::preset(Quality::Draft) };
+    let mut scene = lamp_room([100.0, 30.0]);
+    // A single solid texel in a hundred: most elements find none among their samples.
+    let mut texels = vec![[255, 255, 255, 0]; 100];
+    texels[42] = [255; 4];
+    scene.textures.push(crate::support::quads::texture(10, &texels));
+    scene.materials[1].base_colour_texture = Some(crate::support::quads::slot(0));
+    scene.materials[1].alpha_mode = hemicube::scene::AlphaMode::Mask { cutoff: 0.5 };
+    for (i, vertex) in scene.vertices.iter_mut().enumerate() {
+        vertex.uv[0] = glam::Vec2::new((i % 4 / 2) as f32, (i % 2) as f32);
+    }
+    let light = bake(gpu, &scene, &settings, &Unwatched).unwrap().baked.light;
+    assert!(light.groups.iter().flat_map(|g| g.direct.iter().chain(&g.indirect)).all(|e| e.is_finite()));
+}

@@ -32,7 +32,6 @@ struct Key {
     normal_bin: IVec3,
     material: u32,
     instance: u32,
-    is_solid: bool,
 }
 
 fn key_of(mesh: &PatchMesh, scene: &Scene, element: &Element, patch_size: f32) -> Key {
@@ -46,7 +45,6 @@ fn key_of(mesh: &PatchMesh, scene: &Scene, element: &Element, patch_size: f32) -
         normal_bin: (on_cube * NORMAL_CELLS).round().as_ivec3(),
         material: triangle.material.0,
         instance: triangle.instance.0,
-        is_solid: element.area > 0.0,
     }
 }
 

@@ -35,12 +35,11 @@ fn evaluate_element(element: &mut Element, vertices: &[Vertex], scene: &Scene) {
         reflected += point.opacity * point.reflectance;
         emitted += point.opacity * point.emission;
     }
-    let area = area_of(corners.map(|v| v.position));
-    element.area = area * solid / num_samples as f32;
-    if solid > 0.0 {
-        element.reflectance = reflected / solid;
-        element.exitance = PI * emitted / solid;
-    }
+    // What no sample met may still be met by a ray or pixel: no element is all hole.
+    let solid = solid.max(0.5);
+    element.area = area_of(corners.map(|v| v.position)) * solid / num_samples as f32;
+    element.reflectance = reflected / solid;
+    element.exitance = PI * emitted / solid;
     element.group = if element.exitance.max_element() > 0.0 { material.group } else { None };
 }
 

@@ -16,6 +16,9 @@ use crate::scene::{AlphaMode, Scene, Wrap};
 /// Triangles that are culled together.
 const CHUNK: usize = 64;
 
+/// Vertices a draw call: software drivers touch all of them again for every few clipped triangles.
+const MAX_VERTICES: u32 = 3 * 512;
+
 /// Buffers and chunk boxes of one scene.
 pub(super) struct Geometry {
     pub corners: wgpu::Buffer,
@@ -60,7 +63,7 @@ impl Geometry {
         }
     }
 
-    /// Ranges of vertices whose triangles `frustum` may see, neighbouring chunks in one.
+    /// Ranges of vertices whose triangles `frustum` may see, a few neighbouring chunks in one.
     pub(super) fn visible_vertices(&self, frustum: &Frustum, ranges: &mut Vec<Range<u32>>) {
         ranges.clear();
         if self.chunks.len() == 1 {
@@ -74,7 +77,7 @@ impl Geometry {
             let first = (i * CHUNK) as u32;
             let end = (first + CHUNK as u32).min(self.num_triangles);
             match ranges.last_mut() {
-                Some(range) if range.end == 3 * first => range.end = 3 * end,
+                Some(range) if range.end == 3 * first && 3 * end - range.start <= MAX_VERTICES => range.end = 3 * end,
                 _ => ranges.push(3 * first..3 * end),
             }
         }
