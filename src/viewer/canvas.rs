@@ -52,32 +52,37 @@ pub enum Change {
 
 /// The last picture and what draws the next.
 pub struct Canvas {
-    fine: Renderer,
-    /// Where the processor draws.
-    plain: Option<Renderer>,
     format: wgpu::TextureFormat,
-    blitter: TextureBlitter,
+    fine: Renderer,
+    quick: Option<Quick>,
     picture: Option<Picture>,
+}
+
+/// Where the processor draws.
+struct Quick {
+    renderer: Renderer,
+    /// Enlarges sketches.
+    blitter: TextureBlitter,
+    /// The last sketch's target and its size.
+    target: Option<(wgpu::TextureView, [u32; 2])>,
 }
 
 struct Picture {
     sight: Sight,
     detail: Detail,
-    size: [u32; 2],
-    view: wgpu::TextureView,
+    texture: wgpu::Texture,
 }
 
 impl Canvas {
     /// A canvas for targets of `format`.
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        Self {
-            fine: Renderer::new(gpu, format, SAMPLES),
-            plain: gpu.is_software().then(|| Renderer::new(gpu, format, 1)),
-            format,
+        let quick = || Quick {
+            renderer: Renderer::new(gpu, format, 1),
             blitter: TextureBlitterBuilder::new(&gpu.device, format).sample_type(wgpu::FilterMode::Linear).build(),
-            picture: None,
-        }
+            target: None,
+        };
+        Self { format, fine: Renderer::new(gpu, format, SAMPLES), quick: gpu.is_software().then(quick), picture: None }
     }
 
     /// What `sight` shows anew.
@@ -104,46 +109,72 @@ impl Canvas {
     /// The processor draws, and details cost time.
     #[must_use]
     pub fn is_slow(&self) -> bool {
-        self.plain.is_some()
+        self.quick.is_some()
     }
 
     /// Draws a new picture.
     pub fn draw(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sight: Sight, detail: Detail) {
-        let size = match detail {
-            Detail::Sketch => sight.size.map(|side| side.div_ceil(2)),
-            Detail::Plain | Detail::Fine => sight.size,
+        let texture = match self.picture.take() {
+            Some(last) if last.sight.size == sight.size => last.texture,
+            _ => texture(gpu, sight.size, self.format),
         };
-        let view = match self.picture.take() {
-            Some(last) if last.size == size => last.view,
-            _ => picture_view(gpu, size, self.format),
-        };
-        let renderer = match (&mut self.plain, detail) {
-            (Some(plain), Detail::Sketch | Detail::Plain) => plain,
-            _ => &mut self.fine,
-        };
-        renderer.draw(gpu, encoder, &view, size, &sight.scene, &sight.view, &sight.look);
-        self.picture = Some(Picture { sight, detail, size, view });
+        let target = view_of(&texture);
+        let Sight { scene, view, look, size, .. } = &sight;
+        match (&mut self.quick, detail) {
+            (Some(quick), Detail::Sketch) => quick.sketch(gpu, encoder, &target, self.format, &sight),
+            (Some(quick), Detail::Plain) => quick.renderer.draw(gpu, encoder, &target, *size, scene, view, look),
+            _ => self.fine.draw(gpu, encoder, &target, *size, scene, view, look),
+        }
+        self.picture = Some(Picture { sight, detail, texture });
     }
 
-    /// Fills `target` with the last picture; false where there is none.
-    pub fn paste(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, target: &wgpu::TextureView) -> bool {
-        if let Some(picture) = &self.picture {
-            self.blitter.copy(&gpu.device, encoder, &picture.view, target);
-        }
-        self.picture.is_some()
+    /// Lays the last picture into the top left corner of `target`.
+    pub fn paste(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::Texture) {
+        let Some(Picture { texture, .. }) = &self.picture else { return };
+        let size = wgpu::Extent3d {
+            width: texture.width().min(target.width()),
+            height: texture.height().min(target.height()),
+            depth_or_array_layers: 1,
+        };
+        encoder.copy_texture_to_texture(texture.as_image_copy(), target.as_image_copy(), size);
     }
 }
 
-fn picture_view(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> wgpu::TextureView {
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+impl Quick {
+    /// Draws half as wide and high, and enlarges into `target`.
+    fn sketch(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+        format: wgpu::TextureFormat,
+        sight: &Sight,
+    ) {
+        let size = sight.size.map(|side| side.div_ceil(2));
+        let (small, _) = match self.target.take() {
+            Some(last) if last.1 == size => self.target.insert(last),
+            _ => self.target.insert((view_of(&texture(gpu, size, format)), size)),
+        };
+        self.renderer.draw(gpu, encoder, small, size, &sight.scene, &sight.view, &sight.look);
+        self.blitter.copy(&gpu.device, encoder, small, target);
+    }
+}
+
+fn texture(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
         size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
         mip_level_count: 1,
         sample_count: 1,
         dimension: wgpu::TextureDimension::D2,
         format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
+            | wgpu::TextureUsages::TEXTURE_BINDING
+            | wgpu::TextureUsages::COPY_SRC,
         view_formats: &[],
-    });
+    })
+}
+
+fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }

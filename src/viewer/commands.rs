@@ -65,7 +65,7 @@ impl Walkthrough {
     }
 
     fn travel(&mut self, command: Command) {
-        let [width, height] = self.screen.size();
+        let [width, height] = self.picture_size;
         let Some(Place { scene, collider, traveller, camera, .. }) = &mut self.session.place else { return };
         match command {
             Command::FrameAll => traveller.frame_all(collider, width as f32 / height as f32),

@@ -71,8 +71,9 @@ impl Walkthrough {
             frame_seconds: self.pacer.frame_seconds(),
             adapter: &self.adapter,
         };
-        let mut commands = Vec::new();
-        let shapes = self.gui.run(&self.window, |ui| commands = self.panels.ui(ui, &facts));
+        let (mut commands, mut free) = (Vec::new(), egui::Rect::ZERO);
+        let shapes = self.gui.run(&self.window, |ui| (commands, free) = self.panels.ui(ui, &facts));
+        self.picture_size = pixels(free, shapes.pixels_per_point, self.screen.size());
         (shapes, commands)
     }
 
@@ -84,7 +85,7 @@ impl Walkthrough {
     /// What has to be drawn anew, and how finely; none where the last picture is still right.
     fn next_picture(&mut self) -> Option<(Sight, Detail)> {
         let place = self.session.place.as_ref()?;
-        let size = self.screen.size();
+        let size = self.picture_size;
         let sight = Sight {
             scene: Arc::clone(&place.buffers),
             light: place.light_version,
@@ -131,5 +132,23 @@ impl Walkthrough {
             Some(due) => ControlFlow::WaitUntil(due),
             None => wake.map_or(ControlFlow::Wait, ControlFlow::WaitUntil),
         }
+    }
+}
+
+/// Size in pixels of a rectangle that begins at the window's top left corner.
+fn pixels(free: egui::Rect, pixels_per_point: f32, window: [u32; 2]) -> [u32; 2] {
+    let side = |points: f32, limit: u32| ((points * pixels_per_point).ceil() as u32).clamp(1, limit.max(1));
+    [side(free.right(), window[0]), side(free.bottom(), window[1])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_picture_never_leaves_the_window() {
+        let rect = |x, y| egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(x, y));
+        assert_eq!(pixels(rect(100.0, 50.5), 1.5, [400, 300]), [150, 76]);
+        assert_eq!(pixels(rect(900.0, -3.0), 2.0, [400, 300]), [400, 1]);
     }
 }

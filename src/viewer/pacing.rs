@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use anyhow::Context;
 
 /// While baking, the pause after a frame as a share of the frame's own time, and at least [`SHORTEST_PAUSE`].
-const PAUSE_SHARE: f32 = 0.5;
+const PAUSE_SHARE: f32 = 0.25;
 /// A bake gets at least this long between two frames.
 const SHORTEST_PAUSE: Duration = Duration::from_millis(8);
 /// Share of the newest frame in the shown frame time.
@@ -141,7 +141,7 @@ mod tests {
         pacer.end(true);
         pacer.want();
         let pause = pacer.due(true).expect("wanted") - pacer.ended;
-        assert!(pause >= Duration::from_millis(20), "{pause:?}");
+        assert!(pause >= Duration::from_millis(10), "{pause:?}");
         assert!(pacer.due(false).expect("wanted") <= pacer.ended);
     }
 

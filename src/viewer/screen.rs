@@ -9,7 +9,7 @@ use winit::window::Window;
 use super::canvas::{Canvas, Detail, Sight};
 use crate::gpu::Gpu;
 
-/// Behind the panels while no scene is open.
+/// Where neither picture nor panels are.
 const EMPTY: wgpu::Color = wgpu::Color { r: 0.05, g: 0.055, b: 0.065, a: 1.0 };
 
 /// A device with a window's surface and what draws into it.
@@ -57,7 +57,9 @@ impl Screen {
         let config = configuration(&gpu, &surface, window.inner_size())?;
         surface.configure(&gpu.device, &config);
         let canvas = Canvas::new(&gpu, config.format);
-        let painter = egui_wgpu::Renderer::new(&gpu.device, config.format, egui_wgpu::RendererOptions::default());
+        // Plain panels need no dithering, which costs a processor that draws more than the panels themselves.
+        let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
+        let painter = egui_wgpu::Renderer::new(&gpu.device, config.format, options);
         Ok(Self { gpu: Arc::new(gpu), surface, config, canvas, painter })
     }
 
@@ -90,8 +92,7 @@ impl Screen {
                 return Shown::Retry;
             }
         };
-        let target = frame.texture.create_view(&wgpu::TextureViewDescriptor::default());
-        self.submit(&target, picture, panels);
+        self.submit(&frame.texture, picture, panels);
         if self.gpu.is_software() {
             // The cores draw now: the bake shall not take them away before the frame is whole.
             let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
@@ -101,18 +102,19 @@ impl Screen {
         Shown::Yes
     }
 
-    fn submit(&mut self, target: &wgpu::TextureView, picture: Option<(Sight, Detail)>, panels: &PanelShapes) {
+    fn submit(&mut self, target: &wgpu::Texture, picture: Option<(Sight, Detail)>, panels: &PanelShapes) {
         let Gpu { device, queue, .. } = &*self.gpu;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("screen") });
         if let Some((sight, detail)) = picture {
             self.canvas.draw(&self.gpu, &mut encoder, sight, detail);
         }
-        let has_picture = self.canvas.paste(&self.gpu, &mut encoder, target);
+        let view = target.create_view(&wgpu::TextureViewDescriptor::default());
+        drop(begin_pass(&mut encoder, &view, wgpu::LoadOp::Clear(EMPTY)));
+        self.canvas.paste(&mut encoder, target);
         let screen =
             egui_wgpu::ScreenDescriptor { size_in_pixels: self.size(), pixels_per_point: panels.pixels_per_point };
         let mut uploads = self.painter.update_buffers(device, queue, &mut encoder, &panels.primitives, &screen);
-        let background = if has_picture { wgpu::LoadOp::Load } else { wgpu::LoadOp::Clear(EMPTY) };
-        let mut pass = begin_pass(&mut encoder, target, background).forget_lifetime();
+        let mut pass = begin_pass(&mut encoder, &view, wgpu::LoadOp::Load).forget_lifetime();
         self.painter.render(&mut pass, &panels.primitives, &screen);
         drop(pass);
         uploads.push(encoder.finish());
@@ -158,6 +160,8 @@ fn configuration(
     let config = surface.get_default_config(&gpu.adapter, size.width.max(1), size.height.max(1));
     let mut config = config.with_context(|| format!("{} cannot draw into this window", gpu.name()))?;
     let formats = surface.get_capabilities(&gpu.adapter).formats;
+    // Pictures are copied into the surface.
+    config.usage |= wgpu::TextureUsages::COPY_DST;
     let is_plain = |format: &&wgpu::TextureFormat| {
         matches!(format, wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Rgba8Unorm)
     };

@@ -33,6 +33,8 @@ pub struct Walkthrough {
     pub(super) keys: Keys,
     pub(super) look: MouseLook,
     pub(super) pacer: Pacer,
+    /// Pixels that the panels leave for the picture, across and down.
+    pub(super) picture_size: [u32; 2],
     /// When a sketch shall be drawn out.
     pub(super) settle: Option<Instant>,
     /// As given on the command line; the first bake's.
@@ -55,6 +57,7 @@ impl Walkthrough {
         session.open(source, options.settings)?;
         Ok(Self {
             adapter: screen.gpu.name(),
+            picture_size: screen.size(),
             panels: Panels::new(options.settings.quality),
             settings: options.settings,
             keys: Keys::default(),

@@ -29,8 +29,8 @@ fn working_ui(ui: &mut Ui, stage: Stage, done: f32, is_cancelled: bool, commands
     let label = RichText::new(format!("{}   {:.0} %", stage.label(), 100.0 * done)).color(egui::Color32::WHITE);
     ui.add(ProgressBar::new(done).text(label).desired_height(20.0));
     let cancel = Button::new(if is_cancelled { "Ending ..." } else { "Cancel" });
-    let wide = egui::vec2(ui.available_width(), 0.0);
-    let response = ui.add_enabled(!is_cancelled && stage != Stage::Load, cancel.min_size(wide));
+    let can_cancel = !is_cancelled && stage != Stage::Load;
+    let response = ui.vertical_centered_justified(|ui| ui.add_enabled(can_cancel, cancel)).inner;
     if response.on_hover_text("Ends the bake and keeps the light that is solved").clicked() {
         commands.push(Command::CancelBake);
     }
@@ -48,8 +48,7 @@ fn start_ui(ui: &mut Ui, quality: &mut Quality, facts: &Facts<'_>, commands: &mu
         }
     });
     let start = Button::new(RichText::new("Bake").strong());
-    let wide = egui::vec2(ui.available_width(), 0.0);
-    let response = ui.add_enabled(facts.scene.is_some(), start.min_size(wide));
+    let response = ui.vertical_centered_justified(|ui| ui.add_enabled(facts.scene.is_some(), start)).inner;
     if response.on_hover_text("Solves the light anew (B)").clicked() {
         commands.push(Command::Bake);
     }

@@ -11,9 +11,9 @@ pub fn cameras_ui(ui: &mut Ui, scene: Option<&Scene>, commands: &mut Vec<Command
         ui.label(RichText::new("The file brings none.").weak());
     }
     for (index, camera) in cameras.iter().enumerate() {
-        let wide = egui::vec2(ui.available_width(), 0.0);
-        let button = Button::new(camera.name.as_str()).truncate().min_size(wide);
-        if ui.add(button).on_hover_text("Page Up and Page Down step through them").clicked() {
+        let button = Button::new(camera.name.as_str()).truncate();
+        let response = ui.vertical_centered_justified(|ui| ui.add(button)).inner;
+        if response.on_hover_text("Page Up and Page Down step through them").clicked() {
             commands.push(Command::Jump(index));
         }
     }

@@ -15,7 +15,7 @@ mod view;
 
 use std::time::Duration;
 
-use egui::{CollapsingHeader, RichText, Ui};
+use egui::{CollapsingHeader, Rect, RichText, Ui};
 use glam::Vec3;
 
 pub use message::{Notice, Trouble};
@@ -149,18 +149,19 @@ impl Panels {
         Self { light: LightSettings::default(), quality, is_open: true, shows_help: false, notice: None, trouble: None }
     }
 
-    /// Lays out all panels; what the user asked for.
-    pub fn ui(&mut self, ui: &mut Ui, facts: &Facts<'_>) -> Vec<Command> {
+    /// Lays out all panels; what the user asked for, and what is left for the picture.
+    pub fn ui(&mut self, ui: &mut Ui, facts: &Facts<'_>) -> (Vec<Command>, Rect) {
         let mut commands = Vec::new();
         egui::Panel::bottom("status").frame(theme::bar()).show(ui, |ui| status::status_ui(ui, facts));
         if self.is_open {
             let side = egui::Panel::right("side").exact_size(WIDTH).resizable(false).frame(theme::side());
             side.show(ui, |ui| self.side_ui(ui, facts, &mut commands));
         }
+        let free = ui.available_rect_before_wrap();
         message::notice_ui(ui.ctx(), &mut self.notice);
         message::trouble_ui(ui.ctx(), &mut self.trouble, &mut commands);
         help::help_ui(ui.ctx(), &mut self.shows_help);
-        commands
+        (commands, free)
     }
 
     fn side_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {

@@ -10,7 +10,7 @@ pub const ALARM: Color32 = Color32::from_rgb(255, 118, 104);
 /// Something wants attention.
 pub const WARNING: Color32 = Color32::from_rgb(240, 190, 80);
 
-const PANEL: Color32 = Color32::from_rgba_premultiplied(19, 21, 25, 240);
+const PANEL: Color32 = Color32::from_rgb(21, 23, 27);
 const TEXT: Color32 = Color32::from_gray(214);
 const STRONG_TEXT: Color32 = Color32::from_gray(245);
 const WEAK_TEXT: Color32 = Color32::from_gray(150);
