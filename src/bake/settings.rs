@@ -47,7 +47,7 @@ pub struct BakeSettings {
 pub(super) const SHOOTING_PX: u32 = 64;
 
 /// Farthest that gathered light is borrowed from, in element sizes.
-const BORROW_REACH: f32 = 8.0;
+const BORROW_REACH: f32 = 4.0;
 
 /// Rows kept between shots.
 const ROW_BYTES: usize = 1 << 30;
@@ -68,7 +68,7 @@ impl BakeSettings {
             target_elements: 40_000.0,
             target_patches: 1_500.0,
             points_a_patch: 2,
-            cache_tolerance: 0.15,
+            cache_tolerance: 0.1,
             num_penumbra_rays: 64,
         };
         match quality {
@@ -78,7 +78,7 @@ impl BakeSettings {
                 target_elements: 10_000.0,
                 target_patches: 500.0,
                 points_a_patch: 1,
-                cache_tolerance: 0.3,
+                cache_tolerance: 0.2,
                 num_penumbra_rays: 32,
                 ..base
             },
@@ -89,7 +89,7 @@ impl BakeSettings {
                 target_elements: 160_000.0,
                 target_patches: 4_000.0,
                 points_a_patch: 4,
-                cache_tolerance: 0.08,
+                cache_tolerance: 0.06,
                 num_penumbra_rays: 256,
                 ..base
             },

@@ -1,7 +1,8 @@
 //! Irradiance cache: indirect light varies slowly, so a site near one that is known can borrow from it.
 //!
 //! Each known site is good for a neighbourhood that grows with the harmonic mean distance of what it sees: small in corners,
-//! large in the open. The normal tells the other half of the error.
+//! large in the open. The normal tells the other half of the error. Sites are looked for within the tolerance, but blended
+//! from twice as far, so that every place is a mean of several and no neighbourhood shows its border.
 //!
 //! Source: Ward, Rubinstein, Clear 1988, "A ray tracing solution for diffuse interreflection".
 
@@ -10,6 +11,9 @@ use std::collections::HashMap;
 use glam::{IVec3, Vec3};
 
 use crate::form_factor::Viewpoint;
+
+/// How much farther sites are blended from than looked for.
+const BLEND: f32 = 2.0;
 
 /// A site whose irradiance is known.
 #[derive(Clone, Copy, Debug)]
@@ -41,7 +45,7 @@ impl IrradianceCache {
     /// Enters a known site that sees surfaces at harmonic mean distance `distance`.
     pub fn insert(&mut self, viewpoint: &Viewpoint, distance: f32, site: u32) {
         let record = Record { position: viewpoint.position, normal: viewpoint.normal, distance, site };
-        let radius = self.radius(distance);
+        let radius = BLEND * self.radius(distance);
         let low = ((viewpoint.position - radius) / self.cell).floor().as_ivec3();
         let high = ((viewpoint.position + radius) / self.cell).floor().as_ivec3();
         for x in low.x..=high.x {
@@ -53,17 +57,25 @@ impl IrradianceCache {
         }
     }
 
+    /// A known site is near enough for `viewpoint` to do without one of its own.
+    #[must_use]
+    pub fn serves(&self, viewpoint: &Viewpoint) -> bool {
+        let cell = (viewpoint.position / self.cell).floor().as_ivec3();
+        let mut records = self.records.get(&cell).into_iter().flatten();
+        records.any(|record| self.error(record, viewpoint).is_some_and(|error| error < self.tolerance))
+    }
+
     /// Known sites that `viewpoint` may borrow from, with weights that sum to 1; none where there are none.
     ///
-    /// Equation: w = 1 / error - 1 / tolerance with error = |x - x_i| / R_i + sqrt(1 - n . n_i), which fades to zero at
-    /// the border of the neighbourhood.
+    /// Equation: w = (1 - error / limit)^2 with error = |x - x_i| / R_i + sqrt(1 - n . n_i).
     pub fn weights(&self, viewpoint: &Viewpoint, weights: &mut Vec<(u32, f32)>) {
         weights.clear();
         let cell = (viewpoint.position / self.cell).floor().as_ivec3();
         let Some(records) = self.records.get(&cell) else { return };
         for record in records {
             if let Some(error) = self.error(record, viewpoint) {
-                weights.push((record.site, 1.0 / error.max(1e-3) - 1.0 / self.tolerance));
+                let closeness = 1.0 - error / (BLEND * self.tolerance);
+                weights.push((record.site, closeness * closeness));
             }
         }
         let sum: f32 = weights.iter().map(|(_, weight)| weight).sum();
@@ -76,7 +88,7 @@ impl IrradianceCache {
             + (1.0 - viewpoint.normal.dot(record.normal)).max(0.0).sqrt();
         // A place in front of the record may be hidden from what the record sees.
         let height = offset.dot(viewpoint.normal + record.normal) * 0.5;
-        (error < self.tolerance && height.abs() < 0.5 * self.radius(record.distance)).then_some(error)
+        (error < BLEND * self.tolerance && height.abs() < 0.5 * self.radius(record.distance)).then_some(error)
     }
 
     fn radius(&self, distance: f32) -> f32 {
@@ -112,8 +124,9 @@ mod tests {
     fn nothing_is_borrowed_from_afar_or_round_a_corner() {
         let mut cache = IrradianceCache::new(0.2, 1.0);
         cache.insert(&viewpoint(0.0, Vec3::Y), 1.0, 7);
-        assert!(weights(&cache, &viewpoint(0.21, Vec3::Y)).is_empty());
+        assert!(weights(&cache, &viewpoint(0.41, Vec3::Y)).is_empty());
         assert!(weights(&cache, &viewpoint(0.0, Vec3::X)).is_empty());
-        assert!(!weights(&cache, &viewpoint(0.19, Vec3::Y)).is_empty());
+        assert!(!weights(&cache, &viewpoint(0.39, Vec3::Y)).is_empty());
+        assert!(cache.serves(&viewpoint(0.19, Vec3::Y)) && !cache.serves(&viewpoint(0.21, Vec3::Y)));
     }
 }

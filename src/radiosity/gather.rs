@@ -73,7 +73,6 @@ pub fn gather(
     };
     let mut gathered = Gathered::nothing(sites.len(), radiosity.num_groups());
     let mut cache = IrradianceCache::new(settings.tolerance, settings.max_radius);
-    let mut weights = Vec::new();
     let order = scattered_order(sites.len());
     let mut next = 0;
     while next < order.len() && !progress.is_cancelled() {
@@ -81,8 +80,7 @@ pub fn gather(
         let mut chosen = Vec::with_capacity(ROUND);
         while chosen.len() < ROUND && next < order.len() {
             let site = order[next];
-            cache.weights(&sites[site as usize], &mut weights);
-            if weights.is_empty() {
+            if !cache.serves(&sites[site as usize]) {
                 chosen.push(site);
             }
             next += 1;
@@ -98,7 +96,7 @@ pub fn gather(
         }
         progress.report(Stage::Gather, next as f32 / order.len() as f32);
     }
-    gathered.borrow_the_rest(sites, &cache);
+    gathered.blend(sites, &cache);
     gathered.mean_back_share /= gathered.num_hemicubes.max(1) as f32;
     Ok(gathered)
 }
@@ -145,23 +143,20 @@ impl Gathered {
         self.num_hemicubes += 1;
     }
 
-    /// Gives every site without hemicube the weighted mean of those near it.
-    fn borrow_the_rest(&mut self, sites: &[Viewpoint], cache: &IrradianceCache) {
+    /// Gives every site the weighted mean of the records near it, its own included.
+    fn blend(&mut self, sites: &[Viewpoint], cache: &IrradianceCache) {
+        let own = self.indirect.clone();
         let mut weights = Vec::new();
-        for (site, viewpoint) in sites.iter().enumerate() {
-            if self.is_known[site] {
+        for (site, viewpoint) in sites.iter().enumerate().filter(|(site, _)| self.is_valid[*site]) {
+            cache.weights(viewpoint, &mut weights);
+            if weights.is_empty() {
                 continue;
             }
-            cache.weights(viewpoint, &mut weights);
-            let mut sums = vec![Vec3::ZERO; self.indirect.num_groups()];
+            self.is_known[site] = true;
+            let sums = self.indirect.at_mut(site);
+            sums.fill(Vec3::ZERO);
             for &(record, weight) in &weights {
-                for (sum, &value) in sums.iter_mut().zip(self.indirect.at(record as usize)) {
-                    *sum += value * weight;
-                }
-            }
-            if !weights.is_empty() {
-                self.indirect.at_mut(site).copy_from_slice(&sums);
-                self.is_known[site] = true;
+                sums.iter_mut().zip(own.at(record as usize)).for_each(|(sum, &value)| *sum += value * weight);
             }
         }
     }
