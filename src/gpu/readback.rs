@@ -28,8 +28,33 @@ pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) ->
         size,
     );
     gpu.queue.submit([encoder.finish()]);
+    let padded = mapped_bytes(gpu, &buffer)?;
+    Ok(padded.chunks_exact(padded_row as usize).flat_map(|padded| &padded[..row as usize]).copied().collect())
+}
+
+/// Bytes of a whole buffer that may be copied from.
+///
+/// Blocks until the queue has drained; for single numbers, not for the hemicube loop.
+///
+/// # Errors
+/// The device was lost.
+pub fn read_buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+    let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("readback"),
+        size: source.size(),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("readback") });
+    encoder.copy_buffer_to_buffer(source, 0, &buffer, 0, source.size());
+    gpu.queue.submit([encoder.finish()]);
+    mapped_bytes(gpu, &buffer)
+}
+
+/// Waits for the queue and maps `buffer`.
+fn mapped_bytes(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
     buffer.map_async(wgpu::MapMode::Read, .., |_| {});
     gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Lost(error.to_string()))?;
     let view = buffer.get_mapped_range(..).map_err(|error| GpuError::Lost(error.to_string()))?;
-    Ok(view.chunks_exact(padded_row as usize).flat_map(|padded| &padded[..row as usize]).copied().collect())
+    Ok(view.to_vec())
 }

@@ -6,7 +6,8 @@ use super::surface::SurfacePass;
 use super::tonemap::ToneMapPass;
 use super::{Look, View};
 use crate::gpu::targets::Targets;
-use crate::gpu::{Gpu, SceneBuffers};
+use crate::gpu::readback::read_buffer;
+use crate::gpu::{Gpu, GpuError, SceneBuffers};
 
 /// Draws pictures of one output format.
 pub struct Renderer {
@@ -61,6 +62,16 @@ impl Renderer {
         self.tone_map.draw(gpu, encoder, &targets, &frame, self.meter.exposure(), target);
 
         self.targets = Some(targets);
+    }
+
+    /// The exposure in stops that was metered last; none before a picture was metered. Blocks until it is drawn.
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn metered_ev(&self, gpu: &Gpu) -> Result<Option<f32>, GpuError> {
+        let bytes = read_buffer(gpu, self.meter.exposure())?;
+        let factor = bytes.first_chunk().map_or(0.0, |bytes| f32::from_ne_bytes(*bytes));
+        Ok((factor > 0.0).then(|| factor.log2()))
     }
 
     /// The linear picture that was drawn last, before exposure, scaled by [`SceneBuffers::pre_exposure`].

@@ -295,3 +295,56 @@ impl Watch for Runner {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn shared() -> Arc<Shared> {
+        Arc::new(Shared {
+            gate: Gate::default(),
+            cancel: Cancel::default(),
+            progress: Mutex::new((Stage::Load, 0.0)),
+            light_wanted: Mutex::new(None),
+        })
+    }
+
+    #[test]
+    fn work_rests_while_it_is_held_and_goes_on_afterwards() {
+        let shared = shared();
+        let worker = Worker { shared: Arc::clone(&shared), thread: None };
+        let held = worker.hold();
+        let (told, done) = std::sync::mpsc::channel();
+        let work = std::thread::spawn(move || {
+            shared.gate.pass();
+            told.send(()).expect("somebody listens");
+        });
+        assert!(done.recv_timeout(Duration::from_millis(50)).is_err(), "the gate let it pass");
+        drop(held);
+        assert!(done.recv_timeout(Duration::from_secs(5)).is_ok());
+        work.join().expect("no panic");
+    }
+
+    #[test]
+    fn a_worker_that_is_dropped_ends_its_thread_even_while_it_is_held() {
+        let shared = shared();
+        let for_thread = Arc::clone(&shared);
+        let thread = std::thread::spawn(move || {
+            while !for_thread.cancel.is_cancelled() {
+                for_thread.gate.pass();
+                std::thread::yield_now();
+            }
+        });
+        let worker = Worker { shared, thread: Some(thread) };
+        std::mem::forget(worker.hold());
+        drop(worker);
+    }
+
+    #[test]
+    fn a_name_after_builtin_is_no_file() {
+        assert_eq!(Source::of("builtin:cornell".into()), Source::BuiltIn("cornell".into()));
+        assert_eq!(Source::of("rooms/hall.glb".into()), Source::File("rooms/hall.glb".into()));
+        let message = Source::BuiltIn("castle".into()).load().map(|scene| scene.name).unwrap_err().to_string();
+        assert!(message.contains("castle"), "{message}");
+    }
+}

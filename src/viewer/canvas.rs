@@ -112,6 +112,17 @@ impl Canvas {
         self.quick.is_some()
     }
 
+    /// The exposure that was metered for the last picture, stops; none where none was metered.
+    #[must_use]
+    pub fn metered_ev(&self, gpu: &Gpu) -> Option<f32> {
+        let renderer = match (&self.quick, self.detail()?) {
+            (Some(quick), Detail::Sketch | Detail::Plain) => &quick.renderer,
+            _ => &self.fine,
+        };
+        // A lost device is told by the next frame.
+        renderer.metered_ev(gpu).ok().flatten()
+    }
+
     /// Draws a new picture.
     pub fn draw(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sight: Sight, detail: Detail) {
         let texture = match self.picture.take() {

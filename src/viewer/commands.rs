@@ -37,8 +37,12 @@ impl Walkthrough {
     pub(super) fn perform(&mut self, command: Command) {
         let light = &mut self.panels.light;
         match command {
-            Command::ToggleAutoExposure => light.is_auto = !light.is_auto,
-            Command::StepExposure(steps) => light.step_exposure(steps),
+            Command::ToggleAutoExposure if light.is_auto => self.hold_exposure(),
+            Command::ToggleAutoExposure => light.is_auto = true,
+            Command::StepExposure(steps) => {
+                self.hold_exposure();
+                self.panels.light.step_exposure(steps);
+            }
             Command::NextToneMap => light.next_tone_map(),
             Command::NextShading => light.next_shading(),
             Command::ToggleDirect => light.direct = !light.direct,
@@ -82,6 +86,11 @@ impl Walkthrough {
             traveller.jump(Eye::from_camera(camera), collider);
             self.panels.notice = Some(Notice::new(format!("Camera: {}", camera.name)));
         }
+    }
+
+    fn hold_exposure(&mut self) {
+        let metered_ev = self.screen.canvas.metered_ev(&self.screen.gpu);
+        self.panels.light.hold_exposure(metered_ev);
     }
 
     fn cancel(&mut self) {

@@ -89,14 +89,16 @@ impl Session {
         self.start(Job::Open(source, settings))
     }
 
-    /// Bakes the open scene anew.
+    /// Bakes the open scene anew; a file that is a bake stays as it is.
     ///
     /// # Errors
     /// The system gives no thread.
     pub fn bake(&mut self, settings: BakeSettings) -> anyhow::Result<()> {
         match &self.place {
-            Some(place) => self.start(Job::Bake(Arc::clone(&place.scene), settings)),
-            None => Ok(()),
+            Some(place) if self.outcome != LightState::Stored => {
+                self.start(Job::Bake(Arc::clone(&place.scene), settings))
+            }
+            _ => Ok(()),
         }
     }
 

@@ -73,9 +73,15 @@ impl LightSettings {
         self.groups = scene.light_groups.iter().map(dial).collect();
     }
 
-    /// Brighter or darker by `steps` thirds of a stop; exposure is set by hand from now on.
+    /// Exposure is set by hand from now on, beginning with what the meter found.
+    pub fn hold_exposure(&mut self, metered_ev: Option<f32>) {
+        if std::mem::take(&mut self.is_auto) {
+            self.ev = metered_ev.unwrap_or(self.ev);
+        }
+    }
+
+    /// Brighter or darker by `steps` thirds of a stop.
     pub fn step_exposure(&mut self, steps: f32) {
-        self.is_auto = false;
         self.ev += steps * EV_STEP;
     }
 
@@ -139,9 +145,12 @@ mod tests {
     }
 
     #[test]
-    fn three_steps_of_exposure_are_one_stop() {
+    fn exposure_by_hand_begins_with_what_was_metered() {
         let mut settings = LightSettings::default();
+        settings.hold_exposure(Some(-4.0));
         settings.step_exposure(3.0);
-        assert!(matches!(settings.look(true).exposure, Exposure::Ev(ev) if (ev - 1.0).abs() < 1e-6));
+        assert!(matches!(settings.look(true).exposure, Exposure::Ev(ev) if (ev + 3.0).abs() < 1e-6));
+        settings.hold_exposure(Some(7.0));
+        assert!(matches!(settings.look(true).exposure, Exposure::Ev(ev) if (ev + 3.0).abs() < 1e-6));
     }
 }

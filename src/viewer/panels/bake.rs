@@ -15,6 +15,9 @@ pub fn bake_ui(ui: &mut Ui, quality: &mut Quality, facts: &Facts<'_>, commands: 
                 row(ui, "Unshot light", format!("{:.1} %", 100.0 * (1.0 - done)));
             }
         }
+        LightState::Stored => {
+            ui.label(RichText::new("The file is a bake: its light is shown as it is stored.").weak());
+        }
         state => {
             start_ui(ui, quality, facts, commands);
             outcome_ui(ui, state);
@@ -62,12 +65,9 @@ fn outcome_ui(ui: &mut Ui, state: &LightState) {
             row(ui, "Patches", grouped(*num_patches));
             row(ui, "Hemicubes", grouped(*num_hemicubes));
         }
-        LightState::Stored => {
-            ui.label(RichText::new("The file brings its light: nothing to bake.").weak());
-        }
         LightState::Dark => {
             ui.label(RichText::new("No light yet: shown in an even work light.").color(theme::WARNING));
         }
-        LightState::Nothing | LightState::Working { .. } => {}
+        LightState::Nothing | LightState::Stored | LightState::Working { .. } => {}
     }
 }

@@ -1,11 +1,14 @@
 //! The key sheet.
 
-use egui::{Align2, Grid, Id};
+use egui::{Align2, Grid, Id, Ui};
 
 use super::theme;
 
-/// Keys and what they do, by subject.
-const SHEET: [(&str, &[(&str, &str)]); 4] = [
+/// A subject with its keys and what they do.
+type Subject = (&'static str, &'static [(&'static str, &'static str)]);
+
+/// All keys; two subjects a column.
+const SHEET: [Subject; 4] = [
     (
         "Moving",
         &[
@@ -52,16 +55,25 @@ const SHEET: [(&str, &[(&str, &str)]); 4] = [
 pub fn help_ui(ctx: &egui::Context, is_open: &mut bool) {
     let window = egui::Window::new("Keys").id(Id::unique("keys")).collapsible(false).resizable(false).open(is_open);
     window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
-        Grid::new("sheet").num_columns(2).spacing([22.0, 5.0]).show(ui, |ui| {
-            for (subject, keys) in SHEET {
-                ui.label(theme::title(subject));
-                ui.end_row();
-                for (key, meaning) in keys {
-                    ui.label(theme::key(key));
-                    ui.label(*meaning);
-                    ui.end_row();
-                }
+        ui.horizontal_top(|ui| {
+            for (column, subjects) in SHEET.chunks(2).enumerate() {
+                ui.vertical(|ui| column_ui(ui, column, subjects));
+                ui.add_space(14.0);
             }
         });
+    });
+}
+
+fn column_ui(ui: &mut Ui, column: usize, subjects: &[Subject]) {
+    Grid::new(column).num_columns(2).spacing([18.0, 6.0]).show(ui, |ui| {
+        for (subject, keys) in subjects {
+            ui.label(theme::title(subject));
+            ui.end_row();
+            for (key, meaning) in *keys {
+                ui.label(theme::key(key));
+                ui.label(*meaning);
+                ui.end_row();
+            }
+        }
     });
 }

@@ -1,15 +1,18 @@
 //! Light: exposure, tone map, direct and indirect light, and a dial for each light group.
 
-use egui::{Slider, Ui};
+use egui::{Align, Atom, AtomExt as _, Checkbox, Layout, Slider, Ui};
 
 use super::super::settings::{GroupDial, LightSettings};
+use super::Command;
 use crate::render::ToneMap;
 
 /// Room that a slider leaves for its number, points.
 const NUMBER_WIDTH: f32 = 62.0;
+/// Width of a light group's name with its box, points.
+const NAME_WIDTH: f32 = 112.0;
 
-pub fn light_ui(ui: &mut Ui, light: &mut LightSettings) {
-    exposure_ui(ui, light);
+pub fn light_ui(ui: &mut Ui, light: &mut LightSettings, commands: &mut Vec<Command>) {
+    exposure_ui(ui, light, commands);
     ui.horizontal(|ui| {
         ui.label("Tone map").on_hover_text("T switches");
         ui.selectable_value(&mut light.tone_map, ToneMap::Neutral, "Neutral")
@@ -24,10 +27,13 @@ pub fn light_ui(ui: &mut Ui, light: &mut LightSettings) {
     groups_ui(ui, &mut light.groups);
 }
 
-fn exposure_ui(ui: &mut Ui, light: &mut LightSettings) {
+fn exposure_ui(ui: &mut Ui, light: &mut LightSettings, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
         ui.label("Exposure").on_hover_text("- and + change it");
-        ui.checkbox(&mut light.is_auto, "auto").on_hover_text("Metered from the picture (X)");
+        let mut is_auto = light.is_auto;
+        if ui.checkbox(&mut is_auto, "auto").on_hover_text("Metered from the picture (X)").clicked() {
+            commands.push(Command::ToggleAutoExposure);
+        }
     });
     ui.add_enabled_ui(!light.is_auto, |ui| {
         ui.spacing_mut().slider_width = ui.available_width() - NUMBER_WIDTH;
@@ -50,10 +56,20 @@ fn groups_ui(ui: &mut Ui, groups: &mut [GroupDial]) {
         }
     });
     for group in groups {
-        ui.checkbox(&mut group.is_on, group.name.as_str()).on_hover_text("Switches these lights; no new bake");
-        ui.add_enabled_ui(group.is_on, |ui| {
-            ui.spacing_mut().slider_width = ui.available_width() - NUMBER_WIDTH;
-            ui.add(Slider::new(&mut group.intensity, 0.0..=4.0).fixed_decimals(2).suffix(" x"));
-        });
+        ui.horizontal(|ui| group_ui(ui, group));
     }
+}
+
+fn group_ui(ui: &mut Ui, group: &mut GroupDial) {
+    let height = ui.spacing().interact_size.y;
+    let name = Layout::left_to_right(Align::Center);
+    ui.allocate_ui_with_layout(egui::vec2(NAME_WIDTH, height), name, |ui| {
+        ui.set_width(NAME_WIDTH);
+        let name = Atom::from(group.name.as_str()).atom_shrink(true);
+        ui.add(Checkbox::new(&mut group.is_on, name)).on_hover_text("Switches these lights; no new bake");
+    });
+    ui.add_enabled_ui(group.is_on, |ui| {
+        ui.spacing_mut().slider_width = ui.available_width() - NUMBER_WIDTH;
+        ui.add(Slider::new(&mut group.intensity, 0.0..=4.0).fixed_decimals(2).suffix(" x"));
+    });
 }

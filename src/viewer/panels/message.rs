@@ -41,7 +41,7 @@ pub fn notice_ui(ctx: &egui::Context, notice: &mut Option<Notice>) {
     ctx.request_repaint_after(left);
     let place = Area::new(Id::unique("notice")).anchor(Align2::LEFT_TOP, [16.0, 16.0]).interactable(false);
     place.show(ctx, |ui| {
-        Frame::window(ui.style()).show(ui, |ui| ui.label(RichText::new(&shown.text).strong()));
+        Frame::window(ui.style()).show(ui, |ui| ui.add(egui::Label::new(RichText::new(&shown.text).strong()).extend()));
     });
 }
 

@@ -169,7 +169,7 @@ impl Panels {
             let name = facts.scene.map_or("Hemicube", |scene| scene.name.as_str());
             ui.add(egui::Label::new(RichText::new(name).heading()).truncate());
             ui.label(RichText::new("H: all keys   P: hide panels").weak());
-            section(ui, "Light", true, |ui| light::light_ui(ui, &mut self.light));
+            section(ui, "Light", true, |ui| light::light_ui(ui, &mut self.light, commands));
             section(ui, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, facts, commands));
             section(ui, "View", true, |ui| view::view_ui(ui, &mut self.light, facts, commands));
             section(ui, "Cameras", true, |ui| cameras::cameras_ui(ui, facts.scene, commands));
@@ -224,6 +224,132 @@ fn clock(elapsed: Duration) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use egui::{Event, PointerButton, Pos2, RawInput};
+
+    const WINDOW: egui::Vec2 = egui::vec2(1280.0, 720.0);
+
+    fn facts(scene: Option<&Scene>, light: LightState) -> Facts<'_> {
+        Facts {
+            scene,
+            light,
+            num_elements: None,
+            position: Vec3::ZERO,
+            is_walking: true,
+            pace: 2.0,
+            is_captured: false,
+            frame_rate: 60.0,
+            frame_seconds: 0.016,
+            adapter: "test",
+        }
+    }
+
+    /// Panels in a window of [`WINDOW`], fed with events.
+    struct Desk {
+        ctx: egui::Context,
+        panels: Panels,
+    }
+
+    impl Desk {
+        fn new() -> Self {
+            let ctx = egui::Context::default();
+            theme::apply(&ctx);
+            let mut desk = Self { ctx, panels: Panels::new(Quality::Draft) };
+            // Windows and areas know their size after a frame.
+            desk.frame(&facts(None, LightState::Nothing), Vec::new());
+            desk
+        }
+
+        /// Lays out one frame: commands, room for the picture, and the texts that are drawn with their places.
+        fn frame(&mut self, facts: &Facts<'_>, events: Vec<Event>) -> (Vec<Command>, Rect, Vec<(String, Pos2)>) {
+            let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, WINDOW));
+            let input = RawInput { screen_rect, events, ..RawInput::default() };
+            let mut asked = (Vec::new(), Rect::ZERO);
+            let output = self.ctx.run_ui(input, |ui| asked = self.panels.ui(ui, facts));
+            let texts = output.shapes.iter().flat_map(|clipped| texts(&clipped.shape)).collect();
+            output.drop_without_applying_deltas();
+            (asked.0, asked.1, texts)
+        }
+
+        /// Clicks in the middle of the last text that reads `label`; what was asked for.
+        fn click(&mut self, facts: &Facts<'_>, label: &str) -> Vec<Command> {
+            let (_, _, texts) = self.frame(facts, Vec::new());
+            let (_, at) =
+                texts.iter().rfind(|(text, _)| text == label).unwrap_or_else(|| panic!("{label} in {texts:?}"));
+            let button = |pressed| Event::PointerButton {
+                pos: *at,
+                button: PointerButton::Primary,
+                pressed,
+                modifiers: egui::Modifiers::NONE,
+            };
+            self.frame(facts, vec![Event::PointerMoved(*at)]);
+            self.frame(facts, vec![button(true)]);
+            self.frame(facts, vec![button(false)]).0
+        }
+    }
+
+    fn texts(shape: &egui::Shape) -> Vec<(String, Pos2)> {
+        match shape {
+            egui::Shape::Text(text) => vec![(text.galley.text().to_owned(), text.visual_bounding_rect().center())],
+            egui::Shape::Vec(shapes) => shapes.iter().flat_map(texts).collect(),
+            _ => Vec::new(),
+        }
+    }
+
+    fn scene() -> Scene {
+        Scene { name: "hall".into(), light_groups: vec!["lamps".into()], ..Scene::default() }
+    }
+
+    #[test]
+    fn buttons_ask_for_what_they_say() {
+        let (mut desk, scene) = (Desk::new(), scene());
+        let dark = facts(Some(&scene), LightState::Dark);
+        assert_eq!(desk.click(&dark, "Bake"), [Command::Bake]);
+        assert_eq!(desk.click(&dark, "Frame all"), [Command::FrameAll]);
+        assert_eq!(desk.click(&dark, "Fly"), [Command::ToggleWalking]);
+        let working = LightState::Working {
+            stage: Stage::Solve,
+            done: 0.4,
+            elapsed: Duration::from_secs(3),
+            is_cancelled: false,
+        };
+        let mut desk = Desk::new();
+        assert_eq!(desk.click(&facts(Some(&scene), working), "Cancel"), [Command::CancelBake]);
+    }
+
+    #[test]
+    fn a_preset_is_picked_and_a_group_switched_off() {
+        let (mut desk, scene) = (Desk::new(), scene());
+        desk.panels.light.reset_groups(&scene);
+        let dark = facts(Some(&scene), LightState::Dark);
+        desk.click(&dark, "High");
+        assert_eq!(desk.panels.quality, Quality::High);
+        desk.click(&dark, "lamps");
+        assert!(!desk.panels.light.groups[0].is_on);
+    }
+
+    #[test]
+    fn trouble_is_shown_until_it_is_closed() {
+        let mut desk = Desk::new();
+        desk.panels.trouble = Some(Trouble { title: "This file cannot be opened".into(), text: "no such file".into() });
+        let nothing = facts(None, LightState::Nothing);
+        // A window is measured in its first frame and drawn from the second on.
+        desk.frame(&nothing, Vec::new());
+        let (_, _, texts) = desk.frame(&nothing, Vec::new());
+        assert!(texts.iter().any(|(text, _)| text == "no such file"), "{texts:?}");
+        desk.click(&nothing, "Close");
+        assert_eq!(desk.panels.trouble, None);
+    }
+
+    #[test]
+    fn the_picture_gets_what_the_panels_leave() {
+        let (mut desk, nothing) = (Desk::new(), facts(None, LightState::Nothing));
+        let (_, beside, _) = desk.frame(&nothing, Vec::new());
+        assert_eq!((beside.left(), beside.top()), (0.0, 0.0));
+        assert!((beside.right() - (WINDOW.x - WIDTH)).abs() < 1.0 && beside.bottom() < WINDOW.y - 15.0, "{beside}");
+        desk.panels.is_open = false;
+        let (_, alone, _) = desk.frame(&nothing, Vec::new());
+        assert_eq!(alone.right(), WINDOW.x);
+    }
 
     #[test]
     fn thousands_are_set_apart() {
