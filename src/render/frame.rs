@@ -5,8 +5,8 @@ use super::meter::Meter;
 use super::surface::SurfacePass;
 use super::tonemap::ToneMapPass;
 use super::{Look, View};
-use crate::gpu::targets::Targets;
 use crate::gpu::readback::read_buffer;
+use crate::gpu::targets::Targets;
 use crate::gpu::{Gpu, GpuError, SceneBuffers};
 
 /// Draws pictures of one output format.
