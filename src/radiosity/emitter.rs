@@ -11,7 +11,11 @@ use crate::form_factor::analytic::point_to_polygon;
 use crate::patch::PatchMesh;
 use crate::scene::{Scene, area_of, normal_of};
 
-/// Emissive triangles of one instance, material and side: lit and hidden together.
+/// Triangles of one surface closer than this share of the scene's extent are one emitter: lamps of one mesh that hang
+/// apart are not hidden together.
+const PLACE_SHARE: f32 = 0.1;
+
+/// Emissive triangles of one instance, material, side and place: lit and hidden together.
 pub(super) struct Emitter {
     pub group: GroupId,
     triangles: Vec<EmitterTriangle>,
@@ -37,24 +41,27 @@ pub(super) struct EmitterSample {
 /// Where the emission has a texture its elements are the triangles, else the input triangles: the closed form does not
 /// care how finely a plain panel is cut.
 pub(super) fn emitters(scene: &Scene, mesh: &PatchMesh) -> Vec<Emitter> {
-    let mut by_surface: BTreeMap<(u32, u32, bool), Emitter> = BTreeMap::new();
+    let (low, high) = scene.bounds();
+    let place_size = PLACE_SHARE * (high - low).max_element().max(f32::MIN_POSITIVE);
+    let mut by_surface: BTreeMap<(u32, u32, bool, [i32; 3]), Emitter> = BTreeMap::new();
     for (t, root) in mesh.roots.iter().enumerate() {
         let triangle = &scene.triangles[t];
         let material = &scene.materials[triangle.material.index()];
         let Some(group) = material.group.filter(|_| material.is_emissive()) else { continue };
+        let corners = triangle.vertices.map(|v| scene.vertices[v as usize].position);
+        let place = ((corners[0] + corners[1] + corners[2]) / (3.0 * place_size)).floor().as_ivec3().to_array();
         let sides = if root.has_backs { 2 } else { 1 };
         for side in 0..sides {
             let first = root.first_element + side * root.num_elements;
-            let key = (triangle.instance.0, triangle.material.0, side == 1);
+            let key = (triangle.instance.0, triangle.material.0, side == 1, place);
             let emitter = by_surface.entry(key).or_insert_with(|| Emitter::new(group));
             if material.emissive_texture.is_some() {
                 for e in first..first + root.num_elements {
                     emitter.add_element(mesh, ElementId(e));
                 }
             } else {
-                let [a, b, c] = triangle.vertices.map(|v| scene.vertices[v as usize].position);
-                let corners = if side == 1 { [a, c, b] } else { [a, b, c] };
-                emitter.add(corners, mesh.elements[first as usize].exitance);
+                let [a, b, c] = corners;
+                emitter.add(if side == 1 { [a, c, b] } else { corners }, mesh.elements[first as usize].exitance);
             }
         }
     }
