@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use anyhow::Context;
+use anyhow::{Context, anyhow};
 use winit::application::ApplicationHandler;
 use winit::dpi::LogicalSize;
 use winit::event::{DeviceEvent, DeviceId, WindowEvent};
@@ -30,10 +30,13 @@ struct App {
 
 /// As [`super::run`].
 pub(super) fn run(options: ViewerOptions) -> anyhow::Result<()> {
-    let events = EventLoop::with_user_event().build().context(
-        "cannot open a window: no display answers. `hemicube render` makes pictures without one, \
-         `xvfb-run hemicube` gives the window a virtual display",
-    )?;
+    let events = EventLoop::with_user_event().build().map_err(|error| {
+        log::info!("{error}");
+        anyhow!(
+            "cannot open a window: no display answers. `hemicube render` makes pictures without one, \
+             `xvfb-run hemicube` gives the window a virtual display"
+        )
+    })?;
     let mut app = App { options, proxy: events.create_proxy(), walkthrough: None, failure: None };
     events.run_app(&mut app).context("the display was lost")?;
     app.failure.map_or(Ok(()), Err)

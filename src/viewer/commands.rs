@@ -95,6 +95,7 @@ impl Walkthrough {
 
     fn cancel(&mut self) {
         if let Some(worker) = self.session.worker() {
+            log::info!("the bake shall end");
             worker.cancel();
         }
     }

@@ -36,6 +36,12 @@ impl Keys {
         self.0.clear();
     }
 
+    /// Either control key is down.
+    #[must_use]
+    pub fn is_control_down(&self) -> bool {
+        self.any(&[KeyCode::ControlLeft, KeyCode::ControlRight])
+    }
+
     /// Where the held keys want to go.
     #[must_use]
     pub fn intent(&self) -> Intent {

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use winit::event::{DeviceEvent, ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
 use winit::event_loop::EventLoopProxy;
-use winit::keyboard::{Key, NamedKey, PhysicalKey};
+use winit::keyboard::{Key, KeyCode, NamedKey, PhysicalKey};
 use winit::window::Window;
 
 use super::ViewerOptions;
@@ -107,6 +107,7 @@ impl Walkthrough {
                 self.look.release(&self.window);
             }
             WindowEvent::DroppedFile(path) => self.open(path.clone()),
+            WindowEvent::KeyboardInput { event, .. } if self.is_quit(event) => return true,
             WindowEvent::KeyboardInput { event, .. } if !self.gui.has_keyboard() => self.on_key(event),
             WindowEvent::MouseInput { state: ElementState::Pressed, button, .. } if !self.gui.has_pointer() => {
                 self.look.press(*button, &self.window);
@@ -139,6 +140,13 @@ impl Walkthrough {
             place.traveller.eye.turn(left, up);
             self.pacer.want();
         }
+    }
+
+    /// Ctrl and Q.
+    fn is_quit(&self, event: &KeyEvent) -> bool {
+        event.state == ElementState::Pressed
+            && event.physical_key == PhysicalKey::Code(KeyCode::KeyQ)
+            && self.keys.is_control_down()
     }
 
     fn on_key(&mut self, event: &KeyEvent) {

@@ -48,6 +48,7 @@ const SHEET: [Subject; 4] = [
             ("F12", "write a picture"),
             ("H F1", "this sheet"),
             ("Drop a file", "open it"),
+            ("Ctrl Q", "leave"),
         ],
     ),
 ];

@@ -2,9 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use egui::{Align2, Area, Frame, Id, RichText, Ui};
+use egui::{Align2, Area, Frame, Id, Order, Rect, RichText, Ui};
 
-use super::{Command, theme};
+use super::{Command, LightState, theme};
 
 /// How long a notice stays.
 const NOTICE_TIME: Duration = Duration::from_secs(4);
@@ -29,6 +29,18 @@ pub struct Trouble {
     pub title: String,
     /// Why, in full.
     pub text: String,
+}
+
+/// Fills the place of the picture while there is none.
+pub fn empty_ui(ctx: &egui::Context, free: Rect, light: &LightState) {
+    let text = match light {
+        LightState::Working { .. } => "Opening ...",
+        _ => "Drop a .glb or .gltf file here",
+    };
+    let place = Area::new(Id::unique("empty")).pivot(Align2::CENTER_CENTER).fixed_pos(free.center());
+    place.order(Order::Background).interactable(false).show(ctx, |ui| {
+        ui.add(egui::Label::new(RichText::new(text).heading().weak()).extend());
+    });
 }
 
 pub fn notice_ui(ctx: &egui::Context, notice: &mut Option<Notice>) {

@@ -158,6 +158,9 @@ impl Panels {
             side.show(ui, |ui| self.side_ui(ui, facts, &mut commands));
         }
         let free = ui.available_rect_before_wrap();
+        if facts.scene.is_none() && self.trouble.is_none() {
+            message::empty_ui(ui.ctx(), free, &facts.light);
+        }
         message::notice_ui(ui.ctx(), &mut self.notice);
         message::trouble_ui(ui.ctx(), &mut self.trouble, &mut commands);
         help::help_ui(ui.ctx(), &mut self.shows_help);
