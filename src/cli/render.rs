@@ -100,7 +100,7 @@ fn choose_camera(scene: &Scene, wanted: Option<&str>) -> Result<Camera> {
 /// The scene with the light that is to be shown.
 fn light(gpu: &Gpu, scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
     if args.lighting != Lighting::Ambient {
-        return lit_scene(gpu, scene, &args.bake.settings(), is_quiet);
+        return lit_scene(Some(gpu), scene, &args.bake.settings(), is_quiet);
     }
     Ok(baked::gltf::from_scene(scene).unwrap_or_else(|scene| BakedScene {
         light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()),
