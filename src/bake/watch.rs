@@ -41,7 +41,7 @@ impl Seconds {
         *start = std::time::Instant::now();
         self.total += seconds;
         match stage {
-            Stage::Load => {}
+            Stage::Load | Stage::Trace => {}
             Stage::Mesh => self.mesh += seconds,
             Stage::Direct => self.direct += seconds,
             Stage::Solve => self.solve += seconds,

@@ -84,11 +84,27 @@ impl<'a> Tracer<'a> {
     /// surfaces that blend count as solid from half opacity on.
     #[must_use]
     pub fn nearest(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Option<Hit> {
+        self.nearest_solid(origin, direction, max_distance, |_| 0.5)
+    }
+
+    /// The nearest surface as [`Tracer::nearest`] finds it, where each triangle has its own smallest opacity, above 0,
+    /// that counts as solid: drawn evenly from 0..1, it lets a surface pass the right share of all rays.
+    #[must_use]
+    pub fn nearest_solid(
+        &self,
+        origin: Vec3,
+        direction: Vec3,
+        max_distance: f32,
+        solid_from: impl Fn(TriangleId) -> f32,
+    ) -> Option<Hit> {
         let ray = Ray::new(origin.into(), direction.into(), 0.0, max_distance);
         let mut found = RayHit::none();
-        self.tree.ray_traverse(ray, &mut found, |ray, at| match self.leaves[at].intersect(ray) {
-            Some((distance, u, v)) if self.opacity_at(&self.leaves[at], u, v) >= 0.5 => distance,
-            _ => f32::INFINITY,
+        self.tree.ray_traverse(ray, &mut found, |ray, at| {
+            let leaf = &self.leaves[at];
+            match leaf.intersect(ray) {
+                Some((distance, u, v)) if self.opacity_at(leaf, u, v) >= solid_from(leaf.triangle) => distance,
+                _ => f32::INFINITY,
+            }
         });
         if found.t >= max_distance {
             return None;
@@ -124,12 +140,7 @@ impl<'a> Tracer<'a> {
         if leaf.is_opaque {
             return 1.0;
         }
-        let scene = self.scene;
-        let [a, b, c] = scene.triangles[leaf.triangle.index()].vertices.map(|v| &scene.vertices[v as usize]);
-        let weights = [1.0 - u - v, u, v];
-        let uv = [0, 1].map(|set| a.uv[set] * weights[0] + b.uv[set] * weights[1] + c.uv[set] * weights[2]);
-        let colour = a.colour * weights[0] + b.colour * weights[1] + c.colour * weights[2];
-        scene.material_of(leaf.triangle).at(&scene.textures, uv, colour).opacity
+        self.scene.surface_at(leaf.triangle, Vec3::new(1.0 - u - v, u, v)).opacity
     }
 }
 
