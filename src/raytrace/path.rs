@@ -13,7 +13,7 @@ use glam::Vec3;
 
 use super::lights::Lights;
 use super::sampler::Sampler;
-use super::surface::{Scattered, Surface};
+use super::surface::Surface;
 use crate::base::ids::TriangleId;
 use crate::base::sampling::{hash, unit_float};
 use crate::scene::Scene;
@@ -47,6 +47,8 @@ pub(super) struct Ray {
 /// How a direction came about.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Chance {
+    /// It is the eye's, which sees through the backs of single-sided surfaces, into a room from outside.
+    Eye,
     /// Nothing else looks for lamps in this direction.
     Only,
     /// Lamps are sampled too, from a surface with this normal; density per steradian.
@@ -87,21 +89,44 @@ impl<'a> PathTracer<'a> {
 
     /// What the ray meets; surfaces that blend are met as often as they are opaque.
     pub(super) fn meet(&self, ray: &Ray, sampler: &mut Sampler) -> Option<Hit> {
+        let mut hit = self.nearest(ray.origin, ray.direction, sampler)?;
+        while matches!(ray.chance, Chance::Eye) && !hit.is_front && !self.scene().material_of(hit.triangle).double_sided {
+            let passed = hit.distance + self.height;
+            hit = self.nearest(ray.origin + passed * ray.direction, ray.direction, sampler)?;
+            hit.distance += passed;
+        }
+        Some(hit)
+    }
+
+    fn nearest(&self, origin: Vec3, direction: Vec3, sampler: &mut Sampler) -> Option<Hit> {
         if !self.has_blending {
-            return self.tracer.nearest(ray.origin, ray.direction, f32::INFINITY);
+            return self.tracer.nearest(origin, direction, f32::INFINITY);
         }
         let bits = sampler.bits();
         // Never 0: what is a hole must not be met.
         let solid_from = |triangle: TriangleId| 1.0 - unit_float(hash(bits ^ hash(triangle.0)));
-        self.tracer.nearest_solid(ray.origin, ray.direction, f32::INFINITY, solid_from)
+        self.tracer.nearest_solid(origin, direction, f32::INFINITY, solid_from)
+    }
+
+    /// Radiance that arrives along a ray from the eye, estimated by one path; none from the open.
+    pub(super) fn seen(&self, ray: Ray, sampler: &mut Sampler) -> Option<Vec3> {
+        let hit = self.meet(&ray, sampler)?;
+        let light = self.arriving_from(ray, Some(hit), sampler);
+        Some(light.emitted + light.reflected)
     }
 
     /// Radiance that arrives along a ray, estimated by one path.
-    pub(super) fn arriving(&self, mut ray: Ray, sampler: &mut Sampler) -> Arriving {
+    pub(super) fn arriving(&self, ray: Ray, sampler: &mut Sampler) -> Arriving {
+        let hit = self.meet(&ray, sampler);
+        self.arriving_from(ray, hit, sampler)
+    }
+
+    /// Radiance that arrives along a ray from what it has met.
+    fn arriving_from(&self, mut ray: Ray, mut met: Option<Hit>, sampler: &mut Sampler) -> Arriving {
         let mut light = Arriving::default();
         let mut throughput = Vec3::ONE;
         for bounce in 0.. {
-            let Some(hit) = self.meet(&ray, sampler) else { break };
+            let Some(hit) = met else { break };
             let surface = Surface::at(self.scene(), ray.direction, &hit, self.has_specular);
             if surface.emission != Vec3::ZERO {
                 let emitted = throughput * surface.emission * self.path_share(&ray, &hit);
@@ -110,35 +135,33 @@ impl<'a> PathTracer<'a> {
             if bounce == self.max_bounces {
                 break;
             }
-            light.reflected += throughput * self.direct(&surface, sampler);
+            let path_density = |direction| surface.diffuse_density(direction);
+            light.reflected += throughput * self.direct_beside(&surface, path_density, sampler);
             let Some(scattered) = surface.scatter(sampler) else { break };
             throughput *= scattered.throughput;
-            ray = self.onward(&surface, &scattered);
+            let chance = match scattered.diffuse_density {
+                Some(density) => Chance::Among { normal: surface.normal, density },
+                None => Chance::Only,
+            };
+            ray = self.onward(&surface, scattered.direction, chance);
             if bounce >= MIN_BOUNCES && !survives(&mut throughput, sampler) {
                 break;
             }
+            met = self.meet(&ray, sampler);
         }
         light
     }
 
     /// The ray that goes on from a surface.
-    pub(super) fn onward(&self, surface: &Surface, scattered: &Scattered) -> Ray {
-        let is_reflected = scattered.direction.dot(surface.normal) > 0.0;
-        let side = if is_reflected { surface.normal } else { -surface.normal };
-        Ray {
-            origin: self.above(surface.position, side),
-            direction: scattered.direction,
-            chance: match scattered.diffuse_density {
-                Some(density) => Chance::Among { normal: surface.normal, density },
-                None => Chance::Only,
-            },
-        }
+    pub(super) fn onward(&self, surface: &Surface, direction: Vec3, chance: Chance) -> Ray {
+        let side = if direction.dot(surface.normal) > 0.0 { surface.normal } else { -surface.normal };
+        Ray { origin: self.above(surface.position, side), direction, chance }
     }
 
     /// Share of the emission of what a ray has met that the path accounts for; the rest is sampled at the lamps.
     pub(super) fn path_share(&self, ray: &Ray, hit: &Hit) -> f32 {
         match ray.chance {
-            Chance::Only => 1.0,
+            Chance::Eye | Chance::Only => 1.0,
             Chance::Among { normal, density } => {
                 let at_lamps =
                     self.lights.density(ray.origin, normal, ray.direction, hit.triangle, hit.distance);
@@ -147,15 +170,19 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// Radiance towards the viewer of light straight from the lights, without the share that the path accounts for.
-    fn direct(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+    /// Radiance towards the viewer of light straight from the lights.
+    pub(super) fn direct(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+        self.direct_beside(surface, |_| 0.0, sampler)
+    }
+
+    /// As [`Self::direct`], without the share that falls to a path whose direction has the `path_density`.
+    fn direct_beside(&self, surface: &Surface, path_density: impl Fn(Vec3) -> f32, sampler: &mut Sampler) -> Vec3 {
         let mut radiance = Vec3::ZERO;
-        let place = self.above(surface.position, surface.normal);
-        if self.lights.has_punctual() && let Some((arrival, probability)) =
-            self.lights.choose_punctual(place, surface.normal, sampler)
+        let (normal, place) = (surface.normal, self.above(surface.position, surface.normal));
+        if self.lights.has_punctual()
+            && let Some((arrival, probability)) = self.lights.choose_punctual(place, normal, sampler)
         {
-            let cosine = surface.normal.dot(arrival.to_light);
-            let mut reflected = surface.reflectance * (FRAC_1_PI * cosine);
+            let mut reflected = surface.reflectance * (FRAC_1_PI * normal.dot(arrival.to_light));
             if let Some(specular) = &surface.specular {
                 reflected += specular.highlight(surface.to_viewer, arrival.to_light);
             }
@@ -163,9 +190,8 @@ impl<'a> PathTracer<'a> {
             radiance += reflected * arrival.irradiance * (passing / probability);
         }
         if self.lights.has_emitters() && surface.reflectance != Vec3::ZERO {
-            let density = |direction| surface.diffuse_density(direction);
-            let normal = surface.normal;
-            radiance += surface.reflectance * FRAC_1_PI * self.from_emitters(place, normal, normal, density, sampler);
+            let irradiance = self.from_emitters(place, normal, normal, path_density, sampler);
+            radiance += surface.reflectance * FRAC_1_PI * irradiance;
         }
         radiance
     }

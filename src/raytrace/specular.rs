@@ -45,6 +45,11 @@ impl Specular {
         Some(Self { normal, kind })
     }
 
+    /// It sends light on in one direction only.
+    pub(super) fn is_perfect(&self) -> bool {
+        !matches!(self.kind, Kind::Metal { alpha, .. } if alpha >= MIRROR_ALPHA)
+    }
+
     /// Share of the surface that is clear and therefore not diffuse.
     pub(super) fn clear_share(&self) -> f32 {
         match self.kind {
