@@ -53,7 +53,7 @@ impl Clock {
         self.lap_start = Instant::now();
         self.seconds.total += seconds;
         match stage {
-            Stage::Load => {}
+            Stage::Load | Stage::Trace => {}
             Stage::Mesh => self.seconds.mesh += seconds,
             Stage::Direct => self.seconds.direct += seconds,
             Stage::Solve => self.seconds.solve += seconds,

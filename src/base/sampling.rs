@@ -71,6 +71,15 @@ pub fn morton_2d(square: Vec2) -> u32 {
     spread(square.x) | spread(square.y) << 1
 }
 
+/// Unit direction round `normal`, as likely as its cosine, from a point of the unit square; the density is cosine / pi.
+#[must_use]
+pub fn cosine_hemisphere(normal: Vec3, square: Vec2) -> Vec3 {
+    let (tangent, bitangent) = tangent_frame(normal);
+    let (sin, cos) = (std::f32::consts::TAU * square.y).sin_cos();
+    let radius = square.x.sqrt();
+    tangent * (radius * cos) + bitangent * (radius * sin) + normal * (1.0 - square.x).sqrt()
+}
+
 /// Unit vectors `(tangent, bitangent)` that make a right-handed frame with the unit vector `normal`.
 ///
 /// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".

@@ -1,15 +1,12 @@
 //! Options of every subcommand that may have to bake, and the way from a file to a lit scene.
 
-use std::io::IsTerminal;
 use std::path::Path;
-use std::sync::Arc;
 
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
 use crate::bake::{Bake, BakeSettings, Method, Quality, bake};
 use crate::baked::{self, BakedScene};
-use crate::base::progress::Cancel;
 use crate::gpu::Gpu;
 use crate::scene::{Scene, builtin, gltf};
 
@@ -128,10 +125,7 @@ pub fn bake_device(settings: &BakeSettings) -> Result<Option<Gpu>> {
 /// # Errors
 /// The scene cannot be baked.
 pub fn bake_watched(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, is_quiet: bool) -> Result<Bake> {
-    let cancel = Arc::new(Cancel::default());
-    let on_interrupt = Arc::clone(&cancel);
-    ctrlc::set_handler(move || on_interrupt.cancel()).context("Ctrl-C cannot be caught")?;
-    let watch = TerminalWatch::new(cancel, !is_quiet && std::io::stderr().is_terminal());
+    let watch = TerminalWatch::interruptible(is_quiet)?;
     let finished = bake(gpu, scene, settings, &watch)?;
     watch.finish();
     for note in &scene.notes {

@@ -3,6 +3,7 @@
 pub mod bake;
 pub mod bake_options;
 pub mod info;
+pub mod ray_options;
 pub mod render;
 mod terminal;
 pub mod view;

@@ -11,6 +11,7 @@ use glam::Vec2;
 use rayon::prelude::*;
 
 use super::{Entry, FormFactorError, FormFactors, Row, Viewpoint};
+use crate::base::ids::TriangleId;
 use crate::base::sampling::{disc_from_square, hash, morton_2d, r2, tangent_frame, unit_float};
 use crate::patch::PatchMesh;
 use crate::trace::{Hit, Tracer};
@@ -54,7 +55,9 @@ impl<'a> Hemispheres<'a> {
             let height = (1.0 - disc.length_squared()).max(0.0).sqrt();
             let direction = x * disc.x + y * disc.y + viewpoint.normal * height;
             let seed = viewpoint.seed ^ hash(i as u32);
-            match self.tracer.nearest_by_chance(viewpoint.position, direction, f32::INFINITY, seed) {
+            // A pane stops a ray with the probability of its opacity.
+            let solid_from = |triangle: TriangleId| 1.0 - unit_float(hash(seed ^ hash(triangle.0)));
+            match self.tracer.nearest_solid(viewpoint.position, direction, f32::INFINITY, solid_from) {
                 None => num_sky += 1,
                 Some(hit) => match self.entry(&hit, share) {
                     None => num_back += 1,

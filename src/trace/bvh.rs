@@ -9,7 +9,6 @@ use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle as BvhTriangle;
 
 use crate::base::ids::TriangleId;
-use crate::base::sampling::{hash, unit_float};
 use crate::scene::{AlphaMode, Scene};
 
 /// Answers ray queries on one scene. Backs of double-sided triangles that a bake wrote out are not in the tree.
@@ -85,33 +84,25 @@ impl<'a> Tracer<'a> {
     /// surfaces that blend count as solid from half opacity on.
     #[must_use]
     pub fn nearest(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Option<Hit> {
-        self.nearest_if(origin, direction, max_distance, |_, opacity| opacity >= 0.5)
+        self.nearest_solid(origin, direction, max_distance, |_| 0.5)
     }
 
-    /// As [`Tracer::nearest`], but surfaces that blend stop the ray with the probability of their opacity. Rays of
-    /// different `seed` meet different chances.
+    /// The nearest surface as [`Tracer::nearest`] finds it, where each triangle has its own smallest opacity, above 0,
+    /// that counts as solid: drawn evenly from 0..1, it lets a surface pass the right share of all rays.
     #[must_use]
-    pub fn nearest_by_chance(&self, origin: Vec3, direction: Vec3, max_distance: f32, seed: u32) -> Option<Hit> {
-        self.nearest_if(origin, direction, max_distance, |triangle, opacity| {
-            opacity > unit_float(hash(seed ^ hash(triangle.0)))
-        })
-    }
-
-    fn nearest_if(
+    pub fn nearest_solid(
         &self,
         origin: Vec3,
         direction: Vec3,
         max_distance: f32,
-        is_solid: impl Fn(TriangleId, f32) -> bool,
+        solid_from: impl Fn(TriangleId) -> f32,
     ) -> Option<Hit> {
         let ray = Ray::new(origin.into(), direction.into(), 0.0, max_distance);
         let mut found = RayHit::none();
         self.tree.ray_traverse(ray, &mut found, |ray, at| {
             let leaf = &self.leaves[at];
             match leaf.intersect(ray) {
-                Some((distance, u, v)) if leaf.is_opaque || is_solid(leaf.triangle, self.opacity_at(leaf, u, v)) => {
-                    distance
-                }
+                Some((distance, u, v)) if self.opacity_at(leaf, u, v) >= solid_from(leaf.triangle) => distance,
                 _ => f32::INFINITY,
             }
         });
@@ -137,8 +128,7 @@ impl<'a> Tracer<'a> {
         let mut passing = 1.0;
         let is_clear = self.tree.ray_traverse_miss(ray, |ray, at| match self.leaves[at].intersect(ray) {
             Some((distance, u, v)) => {
-                let leaf = &self.leaves[at];
-                passing *= if leaf.is_opaque { 0.0 } else { 1.0 - self.opacity_at(leaf, u, v) };
+                passing *= 1.0 - self.opacity_at(&self.leaves[at], u, v);
                 if passing < 1e-3 { distance } else { f32::INFINITY }
             }
             None => f32::INFINITY,
@@ -147,12 +137,10 @@ impl<'a> Tracer<'a> {
     }
 
     fn opacity_at(&self, leaf: &Leaf, u: f32, v: f32) -> f32 {
-        let scene = self.scene;
-        let [a, b, c] = scene.triangles[leaf.triangle.index()].vertices.map(|v| &scene.vertices[v as usize]);
-        let weights = [1.0 - u - v, u, v];
-        let uv = [0, 1].map(|set| a.uv[set] * weights[0] + b.uv[set] * weights[1] + c.uv[set] * weights[2]);
-        let colour = a.colour * weights[0] + b.colour * weights[1] + c.colour * weights[2];
-        scene.material_of(leaf.triangle).at(&scene.textures, uv, colour).opacity
+        if leaf.is_opaque {
+            return 1.0;
+        }
+        self.scene.surface_at(leaf.triangle, Vec3::new(1.0 - u - v, u, v)).opacity
     }
 }
 
