@@ -1,5 +1,6 @@
 //! Floor 5: the whole job as one recipe.
 
+pub mod measure;
 mod method;
 mod report;
 mod settings;

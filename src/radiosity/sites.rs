@@ -72,7 +72,9 @@ impl Sites {
             .collect()
     }
 
-    fn viewpoint(&self, position: Vec3, normal: Vec3, seed: u32) -> Viewpoint {
+    /// A viewpoint just above a place on a surface.
+    #[must_use]
+    pub fn viewpoint(&self, position: Vec3, normal: Vec3, seed: u32) -> Viewpoint {
         Viewpoint { position: position + normal * self.height, normal, seed }
     }
 }

@@ -97,7 +97,7 @@ impl<'a> Tracer<'a> {
         max_distance: f32,
         solid_from: impl Fn(TriangleId) -> f32,
     ) -> Option<Hit> {
-        let ray = Ray::new(origin.into(), direction.into(), 0.0, max_distance);
+        let ray = ray(origin, direction, max_distance);
         let mut found = RayHit::none();
         self.tree.ray_traverse(ray, &mut found, |ray, at| {
             let leaf = &self.leaves[at];
@@ -124,7 +124,7 @@ impl<'a> Tracer<'a> {
     /// 1 - alpha behind surfaces that blend.
     #[must_use]
     pub fn transmittance(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> f32 {
-        let ray = Ray::new(origin.into(), direction.into(), 0.0, max_distance);
+        let ray = ray(origin, direction, max_distance);
         let mut passing = 1.0;
         let is_clear = self.tree.ray_traverse_miss(ray, |ray, at| match self.leaves[at].intersect(ray) {
             Some((distance, u, v)) => {
@@ -142,6 +142,12 @@ impl<'a> Tracer<'a> {
         }
         self.scene.surface_at(leaf.triangle, Vec3::new(1.0 - u - v, u, v)).opacity
     }
+}
+
+/// The tree takes a component of -0 for positive in one place and for negative in another, and misses flat boxes; adding 0
+/// makes it +0.
+fn ray(origin: Vec3, direction: Vec3, max_distance: f32) -> Ray {
+    Ray::new(origin.into(), (direction + Vec3::ZERO).into(), 0.0, max_distance)
 }
 
 impl Leaf {
@@ -208,6 +214,17 @@ mod tests {
         assert!(!from_below.is_front && (from_below.distance - 5.0).abs() < 1e-5);
         assert!(tracer.nearest(Vec3::new(1.3, 0.4, 5.0), Vec3::NEG_Z, 100.0).is_none());
         assert!(tracer.nearest(Vec3::new(0.3, 0.4, 5.0), Vec3::NEG_Z, 2.9).is_none());
+    }
+
+    #[test]
+    fn rays_along_an_axis_meet_flat_boxes_whatever_the_sign_of_zero() {
+        let scene = squares(&[0.0], AlphaMode::Opaque, 1.0);
+        let tracer = Tracer::new(&scene);
+        for zeros in [[0.0, 0.0], [-0.0, 0.0], [0.0, -0.0], [-0.0, -0.0]] {
+            let direction = Vec3::new(zeros[0], zeros[1], -1.0);
+            assert!(tracer.nearest(Vec3::new(0.3, 0.4, 1e-3), direction, 2e-3).is_some(), "{direction}");
+            assert_eq!(tracer.transmittance(Vec3::new(0.3, 0.4, 1e-3), direction, 2e-3), 0.0, "{direction}");
+        }
     }
 
     #[test]
