@@ -19,18 +19,13 @@ pub enum Method {
     Hemisphere,
 }
 
-/// Triangles above which a driver that draws on the CPU takes longer over a hemicube than rays do: it touches every
-/// triangle, rays only those they meet.
-const MAX_SOFTWARE_TRIANGLES: usize = 2_000;
-
 impl Method {
-    /// The faster one.
+    /// The faster one: a graphics card draws hemicubes faster than rays are traced, a driver that draws on the CPU does not.
     #[must_use]
-    pub fn fastest(gpu: Option<&Gpu>, num_triangles: usize) -> Self {
+    pub fn fastest(gpu: Option<&Gpu>) -> Self {
         match gpu {
-            None => Self::Hemisphere,
-            Some(gpu) if gpu.is_software() && num_triangles > MAX_SOFTWARE_TRIANGLES => Self::Hemisphere,
-            Some(_) => Self::Hemicube,
+            Some(gpu) if !gpu.is_software() => Self::Hemicube,
+            _ => Self::Hemisphere,
         }
     }
 }

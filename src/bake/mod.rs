@@ -71,7 +71,7 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     if scene.light_groups.is_empty() {
         return Err(BakeError::NoLight(scene.name.clone()));
     }
-    let method = settings.method.unwrap_or_else(|| Method::fastest(gpu, scene.triangles.len()));
+    let method = settings.method.unwrap_or_else(|| Method::fastest(gpu));
     let mut clock = Clock::start();
 
     // Cut the scene into elements and patches.
