@@ -18,7 +18,7 @@ use crate::radiosity::direct::DirectLight;
 use crate::radiosity::gather::{Gathered, gather};
 use crate::radiosity::gathering::{polish, reflected_radiosity};
 use crate::radiosity::progressive::{Progressive, Solution};
-use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, on_elements, vertex_light};
+use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, vertex_light};
 use crate::radiosity::sites::Sites;
 use crate::scene::Scene;
 use crate::trace::Tracer;
@@ -29,6 +29,7 @@ pub use settings::{BakeSettings, Quality};
 pub use watch::{Seconds, Watch};
 
 use method::Seer;
+use settings::PENUMBRA_RAYS_ON_ELEMENTS;
 use watch::Clock;
 
 /// A finished (or cancelled) bake.
@@ -82,17 +83,21 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     watch.mesh(&baked);
     clock.lap(Stage::Mesh);
 
-    // Direct light at the vertices, and from there on the elements.
+    // Direct light at the vertices, to be shown, and on the elements, to be sent on.
     let sites = Sites::new(scene);
     let places = sites.of_light_vertices(&mesh);
     let tracer = Tracer::new(scene);
-    let mut direct = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays).irradiance(&places, watch);
+    let lights = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays);
+    let mut direct = lights.irradiance(&places, watch);
+    let spread = sites.of_elements(&mesh, settings.points_an_element);
+    let on_elements = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS).irradiance(&spread, watch);
+    let on_elements = on_elements.mean_of_each(settings.points_an_element);
     clock.lap(Stage::Direct);
 
     // Shoot what the elements reflect, greatest power first.
     let seer = Seer::new(method, gpu, &mesh, &tracer)?;
     let mut shooting = seer.shooting();
-    let mut solver = Progressive::new(&mesh, sites, on_elements(&mesh, &direct), settings.progressive());
+    let mut solver = Progressive::new(&mesh, sites, on_elements, settings.progressive());
     while !solver.is_done() && !watch.is_cancelled() {
         if watch.wants_light() {
             watch.light(&vertex_light(&mesh, &direct, &estimate(&mesh, solver.solution())));

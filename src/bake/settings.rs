@@ -44,12 +44,17 @@ pub struct BakeSettings {
     pub points_a_patch: usize,
     /// Error that vertices may make by borrowing gathered light from their neighbourhood.
     pub cache_tolerance: f32,
+    /// Points of an element at which its direct light is found.
+    pub points_an_element: usize,
     /// Rays a place and emitter in penumbrae.
     pub num_penumbra_rays: u32,
 }
 
 /// Width of the hemicubes that shoot: they see patches, not detail.
 pub(super) const SHOOTING_PX: u32 = 64;
+
+/// Rays a point and emitter in penumbrae where only the mean over a patch counts.
+pub(super) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 16;
 
 /// Rays of the hemispheres that shoot.
 pub(super) const SHOOTING_RAYS: u32 = 512;
@@ -79,6 +84,7 @@ impl BakeSettings {
             target_patches: 1_500.0,
             points_a_patch: 2,
             cache_tolerance: 0.1,
+            points_an_element: 2,
             num_penumbra_rays: 64,
         };
         match quality {
@@ -90,6 +96,7 @@ impl BakeSettings {
                 target_patches: 500.0,
                 points_a_patch: 1,
                 cache_tolerance: 0.2,
+                points_an_element: 1,
                 num_penumbra_rays: 32,
                 ..base
             },
@@ -102,6 +109,7 @@ impl BakeSettings {
                 target_patches: 4_000.0,
                 points_a_patch: 4,
                 cache_tolerance: 0.06,
+                points_an_element: 4,
                 num_penumbra_rays: 256,
                 ..base
             },

@@ -79,20 +79,6 @@ pub fn average(mesh: &PatchMesh, on_elements: &Field) -> Field {
     sums
 }
 
-/// Mean over the three corners of each element.
-#[must_use]
-pub fn on_elements(mesh: &PatchMesh, at_light_vertices: &Field) -> Field {
-    let mut field = Field::zero(mesh.elements.len(), at_light_vertices.num_groups());
-    for (e, element) in mesh.elements.iter().enumerate() {
-        for l in mesh.light_vertices_of(element) {
-            for (sum, &value) in field.at_mut(e).iter_mut().zip(at_light_vertices.at(l)) {
-                *sum += value / 3.0;
-            }
-        }
-    }
-    field
-}
-
 /// Gives light vertices inside or behind something the mean of their valid neighbours along the mesh.
 ///
 /// Those that have none are never seen and stay as they are.

@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::base::ids::ElementId;
 use crate::base::sampling::{hash, r2, triangle_from_square};
 use crate::form_factor::Viewpoint;
-use crate::patch::{Patch, PatchMesh};
+use crate::patch::{Element, Patch, PatchMesh};
 use crate::scene::{Scene, normal_of};
 
 /// Height of a viewpoint above its surface, as a share of the scene's extent: far above rounding, far below detail.
@@ -48,6 +48,21 @@ impl Sites {
             self.viewpoint(vertex.position + INSET * sideways, vertex.normal, l as u32)
         };
         sum_of_centroids.iter().enumerate().map(site).collect()
+    }
+
+    /// `num_points` viewpoints on each element, side by side, with its geometric normal.
+    #[must_use]
+    pub fn of_elements(&self, mesh: &PatchMesh, num_points: usize) -> Vec<Viewpoint> {
+        let on_element = |(e, element): (usize, &Element)| {
+            let corners = mesh.corners(element);
+            let normal = normal_of(corners);
+            (0..num_points as u32).map(move |i| {
+                let weights = triangle_from_square(r2(i, e as u32));
+                let position = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+                self.viewpoint(position, normal, hash(e as u32) ^ i)
+            })
+        };
+        mesh.elements.iter().enumerate().flat_map(on_element).collect()
     }
 
     /// `num_points` viewpoints spread over a patch by area.

@@ -1,5 +1,6 @@
 //! Irradiance at points from a bake: as it is stored, or gathered once more from all directions.
 
+use std::f32::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::Vec3;
@@ -15,7 +16,8 @@ use crate::base::progress::{Progress, Stage};
 use crate::base::sampling::cosine_hemisphere;
 use crate::trace::Tracer;
 
-/// Indirect irradiance at points by a final gather: so many rays a point look for surfaces, which reflect the stored light.
+/// Indirect irradiance at points by a final gather: so many rays a point look for surfaces, which reflect the stored
+/// indirect light, and direct light found there anew: vertices may be too coarse for its shadows.
 /// None where it was cancelled. `tracer` holds the elements of `baked`.
 ///
 /// Equation: E = mean over cosine-distributed rays of rho (E_direct + E_indirect) where the ray ends.
@@ -57,7 +59,10 @@ fn gathered(rays: &PathTracer<'_>, stored: &StoredLight<'_>, place: &Place, samp
     let ray = Ray { origin: place.origin, direction, chance: Chance::Only };
     let Some(hit) = rays.meet(&ray, sampler) else { return Vec3::ZERO };
     let surface = Surface::at(rays.scene(), direction, &hit, false);
-    if surface.reflectance == Vec3::ZERO { Vec3::ZERO } else { surface.reflectance * stored.total(&surface) }
+    if surface.reflectance == Vec3::ZERO {
+        return Vec3::ZERO;
+    }
+    surface.reflectance * stored.indirect(&surface) + PI * rays.direct(&surface, sampler)
 }
 
 /// Direct and indirect irradiance as stored at the vertices round each point; none where a point lies on no surface.
