@@ -10,4 +10,5 @@ mod loader;
 mod meshing;
 mod pictures;
 mod radiosity;
+mod raytrace;
 mod render_command;

@@ -127,7 +127,7 @@ impl<'a> PathTracer<'a> {
         let mut throughput = Vec3::ONE;
         for bounce in 0.. {
             let Some(hit) = met else { break };
-            let surface = Surface::at(self.scene(), ray.direction, &hit, self.has_specular);
+            let surface = Surface::at(self.scene(), &ray, &hit, self.has_specular);
             if surface.emission != Vec3::ZERO {
                 let emitted = throughput * surface.emission * self.path_share(&ray, &hit);
                 *(if bounce == 0 { &mut light.emitted } else { &mut light.reflected }) += emitted;
@@ -154,7 +154,7 @@ impl<'a> PathTracer<'a> {
 
     /// The ray that goes on from a surface.
     pub(super) fn onward(&self, surface: &Surface, direction: Vec3, chance: Chance) -> Ray {
-        let side = if direction.dot(surface.normal) > 0.0 { surface.normal } else { -surface.normal };
+        let side = surface.geometric * direction.dot(surface.geometric).signum();
         Ray { origin: self.above(surface.position, side), direction, chance }
     }
 
@@ -178,19 +178,24 @@ impl<'a> PathTracer<'a> {
     /// As [`Self::direct`], without the share that falls to a path whose direction has the `path_density`.
     fn direct_beside(&self, surface: &Surface, path_density: impl Fn(Vec3) -> f32, sampler: &mut Sampler) -> Vec3 {
         let mut radiance = Vec3::ZERO;
-        let (normal, place) = (surface.normal, self.above(surface.position, surface.normal));
+        let (normal, geometric) = (surface.normal, surface.geometric);
+        let place = self.above(surface.position, geometric);
         if self.lights.has_punctual()
             && let Some((arrival, probability)) = self.lights.choose_punctual(place, normal, sampler)
+            && arrival.to_light.dot(geometric) > 0.0
         {
             let mut reflected = surface.reflectance * (FRAC_1_PI * normal.dot(arrival.to_light));
             if let Some(specular) = &surface.specular {
                 reflected += specular.highlight(surface.to_viewer, arrival.to_light);
             }
-            let passing = self.tracer.transmittance(place, arrival.to_light, arrival.distance);
+            let passing = match reflected {
+                Vec3::ZERO => 0.0,
+                _ => self.tracer.transmittance(place, arrival.to_light, arrival.distance),
+            };
             radiance += reflected * arrival.irradiance * (passing / probability);
         }
         if self.lights.has_emitters() && surface.reflectance != Vec3::ZERO {
-            let irradiance = self.from_emitters(place, normal, normal, path_density, sampler);
+            let irradiance = self.from_emitters(place, normal, geometric, path_density, sampler);
             radiance += surface.reflectance * FRAC_1_PI * irradiance;
         }
         radiance
