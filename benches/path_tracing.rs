@@ -63,7 +63,8 @@ fn report(name: &str, rows: &[Row], found: &[Irradiance], samples: u32, seconds:
     let mean = rows.iter().map(|row| row.irradiance).sum::<Vec3>() / count;
     let mean_direct = rows.iter().map(|row| row.direct).sum::<Vec3>() / count;
     let mut close = 0;
-    let (mut difference, mut direct_difference, mut squares, mut theirs, mut ours) = (Vec3::ZERO, Vec3::ZERO, 0.0, 0.0, 0.0);
+    let (mut difference, mut direct_difference, mut squares, mut theirs, mut ours) =
+        (Vec3::ZERO, Vec3::ZERO, 0.0, 0.0, 0.0);
     for (row, found) in rows.iter().zip(found) {
         let off = found.total - row.irradiance;
         let error = (found.total_error * found.total_error + row.error * row.error).map(f32::sqrt);

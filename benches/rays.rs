@@ -54,7 +54,8 @@ fn time(what: &str, rays: &[Ray], hits: impl Fn(&Ray) -> bool + Sync) {
     let busy = processor_seconds().zip(busy_before).map(|(after, before)| after - before);
     seconds.sort_by(f64::total_cmp);
     let millions = rays.len() as f64 / 1e6;
-    let a_busy_second = busy.map_or(String::new(), |busy| format!("{:.2} a processor second, ", millions * RUNS as f64 / busy));
+    let a_busy_second =
+        busy.map_or(String::new(), |busy| format!("{:.2} a processor second, ", millions * RUNS as f64 / busy));
     println!(
         "{what}  {:.2} Mrays/s on {} threads, {a_busy_second}{:.3} of the rays hit",
         millions / seconds[RUNS / 2],

@@ -204,7 +204,8 @@ mod tests {
 
     #[test]
     fn what_is_open_is_not_covered_and_a_cancelled_picture_is_empty() {
-        let film = Film::trace(&camera(), [4, 2], 8, 0, &Unwatched, |ray, _| (ray.direction.x > 0.0).then_some(Vec3::ONE));
+        let film =
+            Film::trace(&camera(), [4, 2], 8, 0, &Unwatched, |ray, _| (ray.direction.x > 0.0).then_some(Vec3::ONE));
         assert_eq!((film.radiance[0], film.radiance[3]), ([0.0; 4], [1.0; 4]));
         struct Stopped(Cancel);
         impl Progress for Stopped {

@@ -90,7 +90,8 @@ impl<'a> PathTracer<'a> {
     /// What the ray meets; surfaces that blend are met as often as they are opaque.
     pub(super) fn meet(&self, ray: &Ray, sampler: &mut Sampler) -> Option<Hit> {
         let mut hit = self.nearest(ray.origin, ray.direction, sampler)?;
-        while matches!(ray.chance, Chance::Eye) && !hit.is_front && !self.scene().material_of(hit.triangle).double_sided {
+        while matches!(ray.chance, Chance::Eye) && !hit.is_front && !self.scene().material_of(hit.triangle).double_sided
+        {
             let passed = hit.distance + self.height;
             hit = self.nearest(ray.origin + passed * ray.direction, ray.direction, sampler)?;
             hit.distance += passed;
@@ -163,8 +164,7 @@ impl<'a> PathTracer<'a> {
         match ray.chance {
             Chance::Eye | Chance::Only => 1.0,
             Chance::Among { normal, density } => {
-                let at_lamps =
-                    self.lights.density(ray.origin, normal, ray.direction, hit.triangle, hit.distance);
+                let at_lamps = self.lights.density(ray.origin, normal, ray.direction, hit.triangle, hit.distance);
                 power_heuristic(density, at_lamps)
             }
         }

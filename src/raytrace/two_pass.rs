@@ -57,7 +57,9 @@ impl SecondPass<'_> {
             };
             radiance += throughput * (surface.emission + self.reflected(&surface, sampler));
             let Some(specular) = &surface.specular else { break };
-            let Some((direction, share)) = specular.scatter(surface.to_viewer, surface.geometric, sampler) else { break };
+            let Some((direction, share)) = specular.scatter(surface.to_viewer, surface.geometric, sampler) else {
+                break;
+            };
             throughput *= share;
             ray = self.rays.onward(&surface, direction, Chance::Only);
         }

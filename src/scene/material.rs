@@ -228,9 +228,10 @@ impl Material {
     pub fn at(&self, textures: &[Texture], uv: [Vec2; 2], colour: Vec4) -> SurfacePoint {
         let fetch = |slot: &TextureSlot| textures[slot.texture.index()].sample_srgb(slot.coordinate(uv));
         let base = self.base_colour_texture.as_ref().map_or(Vec4::ONE, fetch) * self.base_colour * colour;
-        let finish = self.metallic_roughness_texture.as_ref().map_or(Vec4::ONE, |slot| {
-            textures[slot.texture.index()].sample_linear(slot.coordinate(uv))
-        });
+        let finish = self
+            .metallic_roughness_texture
+            .as_ref()
+            .map_or(Vec4::ONE, |slot| textures[slot.texture.index()].sample_linear(slot.coordinate(uv)));
         let (metallic, roughness) = (self.metallic * finish.z, self.roughness * finish.y);
         let base_colour = base.truncate();
         let reflecting = |share: f32| {
