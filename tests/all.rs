@@ -6,6 +6,7 @@ mod support;
 mod assets;
 mod builtin;
 mod floors;
+mod form_factors;
 mod loader;
 mod meshing;
 mod pictures;

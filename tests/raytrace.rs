@@ -232,7 +232,7 @@ fn radiosity_is_what_paths_find() {
     builder.quad([(1.0, 1.0), (2.0, 1.0), (2.0, 1.5), (1.0, 1.5)].map(|(x, z)| under_ceiling(x, z)), lamp);
     let scene = builder.build(1);
     let settings = BakeSettings { element_size: Some(0.15), ..BakeSettings::preset(Quality::Draft) };
-    let baked = bake(gpu, &scene, &settings, &Unwatched).unwrap().baked;
+    let baked = bake(Some(gpu), &scene, &settings, &Unwatched).unwrap().baked;
     let light = &baked.light.groups[0];
     let vertices: Vec<usize> = (0..baked.scene.vertices.len()).step_by(7).collect();
     let points: Vec<_> = vertices

@@ -1,5 +1,6 @@
 //! Presets that a user need not tune, and the sizes they mean on a given scene.
 
+use super::Method;
 use crate::patch::MeshSettings;
 use crate::radiosity::gather::GatherSettings;
 use crate::radiosity::progressive::ProgressiveSettings;
@@ -25,8 +26,12 @@ pub struct BakeSettings {
     pub quality: Quality,
     /// Longest element edge, metres; none: chosen from the scene's area.
     pub element_size: Option<f32>,
+    /// How form factors are found; none: whatever is faster.
+    pub method: Option<Method>,
     /// Width of the hemicubes that gather, pixels.
     pub hemicube_px: u32,
+    /// Rays of the hemispheres that gather.
+    pub hemisphere_rays: u32,
     /// Share of the first unshot power at which shooting ends.
     pub threshold: f32,
     /// Shots a patch, on average, after which shooting ends.
@@ -46,6 +51,9 @@ pub struct BakeSettings {
 /// Width of the hemicubes that shoot: they see patches, not detail.
 pub(super) const SHOOTING_PX: u32 = 64;
 
+/// Rays of the hemispheres that shoot.
+pub(super) const SHOOTING_RAYS: u32 = 512;
+
 /// Farthest that gathered light is borrowed from, in element sizes.
 const BORROW_REACH: f32 = 4.0;
 
@@ -62,7 +70,9 @@ impl BakeSettings {
         let base = Self {
             quality,
             element_size: None,
+            method: None,
             hemicube_px: 64,
+            hemisphere_rays: 1024,
             threshold: 1e-3,
             max_passes: 64,
             target_elements: 40_000.0,
@@ -74,6 +84,7 @@ impl BakeSettings {
         match quality {
             Quality::Draft => Self {
                 hemicube_px: 32,
+                hemisphere_rays: 256,
                 threshold: 1e-2,
                 target_elements: 10_000.0,
                 target_patches: 500.0,
@@ -85,6 +96,7 @@ impl BakeSettings {
             Quality::Medium => base,
             Quality::High => Self {
                 hemicube_px: 128,
+                hemisphere_rays: 4096,
                 threshold: 3e-4,
                 target_elements: 160_000.0,
                 target_patches: 4_000.0,

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 
-use super::bake_options::{BakeOptions, lit_scene, load, positive};
+use super::bake_options::{BakeOptions, bake_device, lit_scene, load, positive};
 use super::ray_options::{RayOptions, RendererName};
 use crate::baked::{self, BakedScene, VertexLight};
 use crate::gpu::Gpu;
@@ -131,16 +131,19 @@ fn choose_camera(scene: &Scene, wanted: Option<&str>) -> Result<Camera> {
 fn light(gpu: &Gpu, scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
     match args.lighting() {
         Lighting::Ambient => Ok(baked::gltf::from_scene(scene).unwrap_or_else(dark)),
-        _ => lit_scene(gpu, scene, &args.bake.settings(), is_quiet),
+        _ => lit_scene(Some(gpu), scene, &args.bake.settings(), is_quiet),
     }
 }
 
-/// The scene with the light that the second pass does not trace; only a bake needs a GPU.
+/// The scene with the light that the second pass does not trace.
 fn first_pass(scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
     match (baked::gltf::from_scene(scene), args.lighting()) {
         (Ok(baked), _) => Ok(baked),
         (Err(scene), Lighting::Direct | Lighting::Ambient) => Ok(dark(scene)),
-        (Err(scene), _) => lit_scene(&Gpu::headless()?, scene, &args.bake.settings(), is_quiet),
+        (Err(scene), _) => {
+            let settings = args.bake.settings();
+            lit_scene(bake_device(&settings)?.as_ref(), scene, &settings, is_quiet)
+        }
     }
 }
 

@@ -125,7 +125,9 @@ fn see(row: &Row, viewpoint: &Viewpoint, radiosity: &Field, centroids: &[Vec3]) 
 }
 
 impl Gathered {
-    fn nothing(num_sites: usize, num_groups: usize) -> Self {
+    /// No site is known.
+    #[must_use]
+    pub fn nothing(num_sites: usize, num_groups: usize) -> Self {
         Self {
             indirect: Field::zero(num_sites, num_groups),
             is_valid: vec![true; num_sites],

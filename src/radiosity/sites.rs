@@ -3,6 +3,7 @@
 use glam::Vec3;
 
 use crate::base::ids::ElementId;
+use crate::base::sampling::{hash, r2, triangle_from_square};
 use crate::form_factor::Viewpoint;
 use crate::patch::{Patch, PatchMesh};
 use crate::scene::{Scene, normal_of};
@@ -53,21 +54,27 @@ impl Sites {
     #[must_use]
     pub fn of_patch(&self, mesh: &PatchMesh, patch: &Patch, num_points: usize) -> Vec<Viewpoint> {
         let members = mesh.members_of(patch);
-        (0..num_points)
+        if num_points == 1 {
+            let central = most_central(mesh, members);
+            let element = &mesh.elements[central.index()];
+            return vec![self.viewpoint(mesh.centroid(element), normal_of(mesh.corners(element)), central.0)];
+        }
+        (0..num_points as u32)
             .map(|i| {
-                let element = if num_points == 1 {
-                    most_central(mesh, members)
-                } else {
-                    at_area(mesh, members, patch.area * (i as f32 + 0.5) / num_points as f32)
-                };
+                let stratum = patch.area * (i as f32 + 0.5) / num_points as f32;
+                let element = at_area(mesh, members, stratum);
                 let corners = mesh.corners(&mesh.elements[element.index()]);
-                let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
-                self.viewpoint(centroid, normal_of(corners), element.0)
+                let seed = hash(element.0) ^ i;
+                let weights = triangle_from_square(r2(i, element.0));
+                let position = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+                self.viewpoint(position, normal_of(corners), seed)
             })
             .collect()
     }
 
-    fn viewpoint(&self, position: Vec3, normal: Vec3, seed: u32) -> Viewpoint {
+    /// A viewpoint just above a place on a surface.
+    #[must_use]
+    pub fn viewpoint(&self, position: Vec3, normal: Vec3, seed: u32) -> Viewpoint {
         Viewpoint { position: position + normal * self.height, normal, seed }
     }
 }

@@ -10,7 +10,7 @@ use super::sampler::Sampler;
 use super::settings::PathSettings;
 use crate::base::progress::{Progress, Stage};
 use crate::base::sampling::{cosine_hemisphere, hash};
-use crate::trace::Tracer;
+use crate::trace::{Hit, Tracer};
 
 /// Independent estimates at a point, from whose scatter the standard error follows.
 const NUM_BATCHES: u32 = 16;
@@ -92,23 +92,30 @@ fn at_point(paths: &PathTracer<'_>, point: &MeasuringPoint, number: u32, setting
 }
 
 /// A point just above its surface.
-struct Place {
-    origin: Vec3,
-    normal: Vec3,
-    geometric: Vec3,
+pub(super) struct Place {
+    pub origin: Vec3,
+    /// That of the point.
+    pub normal: Vec3,
+    /// That of the surface, on the side of the point's.
+    pub geometric: Vec3,
 }
 
 impl Place {
-    fn of(paths: &PathTracer<'_>, point: &MeasuringPoint) -> Self {
+    pub(super) fn of(paths: &PathTracer<'_>, point: &MeasuringPoint) -> Self {
         let normal = point.normal.normalize();
-        let (low, high) = paths.scene().bounds();
-        let reach = REACH * (high - low).max_element();
-        let hit = paths.tracer.nearest(point.position + normal * reach, -normal, 2.0 * reach);
-        let geometric = hit.map_or(normal, |hit| {
+        let geometric = Self::surface(paths, point).map_or(normal, |hit| {
             let front = crate::scene::normal_of(paths.scene().corners(hit.triangle));
             if front.dot(normal) < 0.0 { -front } else { front }
         });
         Self { origin: paths.above(point.position, geometric), normal, geometric }
+    }
+
+    /// The surface that the point lies on.
+    pub(super) fn surface(paths: &PathTracer<'_>, point: &MeasuringPoint) -> Option<Hit> {
+        let (low, high) = paths.scene().bounds();
+        let reach = REACH * (high - low).max_element();
+        let normal = point.normal.normalize();
+        paths.tracer.nearest(point.position + normal * reach, -normal, 2.0 * reach)
     }
 
     /// One estimate of the irradiance straight from emissive surfaces, and of the indirect one.
@@ -116,7 +123,7 @@ impl Place {
         let density = |direction: Vec3| self.normal.dot(direction).max(0.0) * std::f32::consts::FRAC_1_PI;
         let mut direct = Vec3::ZERO;
         if paths.lights.has_emitters() {
-            direct += paths.from_emitters(self.origin, self.normal, self.geometric, density, sampler);
+            direct += paths.emitter_irradiance(self.origin, self.normal, self.geometric, density, sampler);
         }
         let direction = cosine_hemisphere(self.normal, sampler.square());
         if direction.dot(self.geometric) <= 0.0 {

@@ -256,7 +256,7 @@ mod tests {
             let at = 4.0 * vector(100 * i);
             let corners = [at, at + 0.2 * vector(100 * i + 10), at + 0.2 * vector(100 * i + 20)];
             let normal = (vector(100 * i + 30) - 0.5).normalize();
-            LightBounds::of_triangle(corners, normal, 0.1 + unit_float(hash(i)), i % 3 == 0)
+            LightBounds::of_triangle(corners, normal, 0.1 + unit_float(hash(i)), i.is_multiple_of(3))
         };
         (0..count).map(lamp).collect()
     }

@@ -7,6 +7,7 @@
 //! diffuse surface in the second pass.
 
 mod film;
+mod gather;
 mod irradiance;
 mod light_tree;
 mod lights;
@@ -19,6 +20,7 @@ mod surface;
 mod two_pass;
 
 pub use film::{Film, FilmNoise};
+pub use gather::{gathered_irradiance, stored_irradiance};
 pub use irradiance::{Irradiance, MeasuringPoint, irradiance};
 pub use settings::{Ambient, PathSettings, TwoPassSettings};
 pub use two_pass::two_pass;

@@ -16,7 +16,7 @@ use super::sampler::Sampler;
 use super::surface::Surface;
 use crate::base::ids::TriangleId;
 use crate::base::sampling::{hash, unit_float};
-use crate::scene::Scene;
+use crate::scene::{AlphaMode, Arrival, Scene};
 use crate::trace::{Hit, Tracer};
 
 /// Height of a ray's origin above its surface, as a share of the scene's extent: above rounding, below detail.
@@ -74,7 +74,7 @@ impl<'a> PathTracer<'a> {
             max_bounces,
             has_specular,
             height: HEIGHT * (high - low).max_element(),
-            has_blending: scene.materials.iter().any(|material| material.alpha_mode == crate::scene::AlphaMode::Blend),
+            has_blending: scene.materials.iter().any(|material| material.alpha_mode == AlphaMode::Blend),
         }
     }
 
@@ -136,8 +136,7 @@ impl<'a> PathTracer<'a> {
             if bounce == self.max_bounces {
                 break;
             }
-            let path_density = |direction| surface.diffuse_density(direction);
-            light.reflected += throughput * self.direct_beside(&surface, path_density, sampler);
+            light.reflected += throughput * self.direct_beside_path(&surface, sampler);
             let Some(scattered) = surface.scatter(sampler) else { break };
             throughput *= scattered.throughput;
             let chance = match scattered.diffuse_density {
@@ -170,40 +169,62 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// Radiance towards the viewer of light straight from the lights.
+    /// Radiance towards the viewer of light straight from the lights: from every punctual one, and from one place on an
+    /// emissive triangle.
     pub(super) fn direct(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
-        self.direct_beside(surface, |_| 0.0, sampler)
+        let place = self.above(surface.position, surface.geometric);
+        let punctual: Vec3 = self.lights.punctual(place).map(|arrival| self.reflected(surface, place, &arrival)).sum();
+        punctual + self.reflected_of_emitters(surface, place, |_| 0.0, sampler)
     }
 
-    /// As [`Self::direct`], without the share that falls to a path whose direction has the `path_density`.
-    fn direct_beside(&self, surface: &Surface, path_density: impl Fn(Vec3) -> f32, sampler: &mut Sampler) -> Vec3 {
+    /// As [`Self::direct`], from one of the punctual lights, and without the share of the emissive triangles that falls to
+    /// the path.
+    fn direct_beside_path(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+        let place = self.above(surface.position, surface.geometric);
         let mut radiance = Vec3::ZERO;
-        let (normal, geometric) = (surface.normal, surface.geometric);
-        let place = self.above(surface.position, geometric);
         if self.lights.has_punctual()
-            && let Some((arrival, probability)) = self.lights.choose_punctual(place, normal, sampler)
-            && arrival.to_light.dot(geometric) > 0.0
+            && let Some((arrival, probability)) = self.lights.choose_punctual(place, surface.normal, sampler)
         {
-            let mut reflected = surface.reflectance * (FRAC_1_PI * normal.dot(arrival.to_light));
-            if let Some(specular) = &surface.specular {
-                reflected += specular.highlight(surface.to_viewer, arrival.to_light);
-            }
-            let passing = match reflected {
-                Vec3::ZERO => 0.0,
-                _ => self.tracer.transmittance(place, arrival.to_light, arrival.distance),
-            };
-            radiance += reflected * arrival.irradiance * (passing / probability);
+            radiance += self.reflected(surface, place, &arrival) / probability;
         }
-        if self.lights.has_emitters() && surface.reflectance != Vec3::ZERO {
-            let irradiance = self.from_emitters(place, normal, geometric, path_density, sampler);
-            radiance += surface.reflectance * FRAC_1_PI * irradiance;
+        radiance + self.reflected_of_emitters(surface, place, |direction| surface.diffuse_density(direction), sampler)
+    }
+
+    /// Radiance towards the viewer of a punctual light, with its highlight and its shadow.
+    fn reflected(&self, surface: &Surface, place: Vec3, arrival: &Arrival) -> Vec3 {
+        let cosine = surface.normal.dot(arrival.to_light);
+        if cosine <= 0.0 || arrival.to_light.dot(surface.geometric) <= 0.0 {
+            return Vec3::ZERO;
         }
-        radiance
+        let mut share = surface.reflectance * (FRAC_1_PI * cosine);
+        if let Some(specular) = &surface.specular {
+            share += specular.highlight(surface.to_viewer, arrival.to_light);
+        }
+        let unhidden = share * arrival.irradiance;
+        if unhidden == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        unhidden * self.tracer.transmittance(place, arrival.to_light, arrival.distance)
+    }
+
+    /// Radiance towards the viewer of the emissive triangles, reflected diffusely.
+    fn reflected_of_emitters(
+        &self,
+        surface: &Surface,
+        place: Vec3,
+        path_density: impl Fn(Vec3) -> f32,
+        sampler: &mut Sampler,
+    ) -> Vec3 {
+        if !self.lights.has_emitters() || surface.reflectance == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let irradiance = self.emitter_irradiance(place, surface.normal, surface.geometric, path_density, sampler);
+        surface.reflectance * FRAC_1_PI * irradiance
     }
 
     /// Irradiance from the emissive triangles on a surface with this shading normal and this geometric one, by one sample,
     /// without the share that falls to a path whose direction has the `path_density`.
-    pub(super) fn from_emitters(
+    pub(super) fn emitter_irradiance(
         &self,
         place: Vec3,
         normal: Vec3,

@@ -177,6 +177,17 @@ mod tests {
     }
 
     #[test]
+    fn rays_along_an_axis_meet_flat_boxes_whatever_the_sign_of_zero() {
+        let scene = squares(&[0.0], AlphaMode::Opaque, 1.0);
+        let tracer = Tracer::new(&scene);
+        for zeros in [[0.0, 0.0], [-0.0, 0.0], [0.0, -0.0], [-0.0, -0.0]] {
+            let direction = Vec3::new(zeros[0], zeros[1], -1.0);
+            assert!(tracer.nearest(Vec3::new(0.3, 0.4, 1e-3), direction, 2e-3).is_some(), "{direction}");
+            assert_eq!(tracer.transmittance(Vec3::new(0.3, 0.4, 1e-3), direction, 2e-3), 0.0, "{direction}");
+        }
+    }
+
+    #[test]
     fn two_half_transparent_squares_pass_a_quarter() {
         let scene = squares(&[0.0, 1.0], AlphaMode::Blend, 0.5);
         let passing = Tracer::new(&scene).transmittance(Vec3::new(0.3, 0.4, 5.0), Vec3::NEG_Z, 100.0);
