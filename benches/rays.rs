@@ -1,5 +1,7 @@
 //! Rays per second: from random points of the surface, cosine-distributed about the front normal, on all cores.
 //!
+//! On a machine that others use too, compare the rates a second of processor time (told on Linux).
+//!
 //! `cargo bench --bench rays -- [SCENE.glb] [RAYS]`; without a scene the built-in Cornell box.
 
 use std::path::Path;
@@ -41,6 +43,7 @@ fn main() -> anyhow::Result<()> {
 
 fn time(what: &str, rays: &[Ray], hits: impl Fn(&Ray) -> bool + Sync) {
     let mut num_hits = 0;
+    let busy_before = processor_seconds();
     let mut seconds: Vec<f64> = (0..RUNS)
         .map(|_| {
             let start = Instant::now();
@@ -48,13 +51,26 @@ fn time(what: &str, rays: &[Ray], hits: impl Fn(&Ray) -> bool + Sync) {
             start.elapsed().as_secs_f64()
         })
         .collect();
+    let busy = processor_seconds().zip(busy_before).map(|(after, before)| after - before);
     seconds.sort_by(f64::total_cmp);
+    let millions = rays.len() as f64 / 1e6;
+    let a_busy_second =
+        busy.map_or(String::new(), |busy| format!("{:.2} a processor second, ", millions * RUNS as f64 / busy));
     println!(
-        "{what}  {:.2} Mrays/s on {} threads, {:.3} of the rays hit",
-        rays.len() as f64 / seconds[RUNS / 2] / 1e6,
+        "{what}  {:.2} Mrays/s on {} threads, {a_busy_second}{:.3} of the rays hit",
+        millions / seconds[RUNS / 2],
         rayon::current_num_threads(),
         num_hits as f64 / rays.len() as f64
     );
+}
+
+/// Time that the processor has spent in this program, all threads together; none where the system does not tell.
+fn processor_seconds() -> Option<f64> {
+    // Fields 14 and 15 of proc(5), in hundredths of a second; the second field, a name in brackets, may hold blanks.
+    let text = std::fs::read_to_string("/proc/self/stat").ok()?;
+    let fields: Vec<&str> = text.rsplit_once(')')?.1.split_whitespace().collect();
+    let ticks = |field: usize| fields.get(field - 3)?.parse::<f64>().ok();
+    Some((ticks(14)? + ticks(15)?) / 100.0)
 }
 
 /// Rays from points spread over the surface by area, in no order.

@@ -11,4 +11,5 @@ mod loader;
 mod meshing;
 mod pictures;
 mod radiosity;
+mod raytrace;
 mod render_command;

@@ -22,7 +22,7 @@ pub struct RayOptions {
     /// path traces all light, for truth (two-pass with stored light and path need no GPU).
     #[arg(long, value_enum, value_name = "RENDERER", default_value = "raster")]
     pub renderer: RendererName,
-    /// Rays a pixel [default: 16 with two-pass, 256 with path].
+    /// Rays a pixel [default: 32 with two-pass, 256 with path].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 20))]
     pub spp: Option<u32>,
     /// With path: light is followed through at most this many reflections [default: to the end].

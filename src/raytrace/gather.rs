@@ -58,7 +58,7 @@ fn gathered(rays: &PathTracer<'_>, stored: &StoredLight<'_>, place: &Place, samp
     }
     let ray = Ray { origin: place.origin, direction, chance: Chance::Only };
     let Some(hit) = rays.meet(&ray, sampler) else { return Vec3::ZERO };
-    let surface = Surface::at(rays.scene(), direction, &hit, false);
+    let surface = Surface::at(rays.scene(), &ray, &hit, false);
     if surface.reflectance == Vec3::ZERO {
         return Vec3::ZERO;
     }
@@ -77,7 +77,8 @@ pub fn stored_irradiance(
     let look_up = |point: &MeasuringPoint| {
         let normal = point.normal.normalize();
         let hit = Place::surface(&rays, point)?;
-        let surface = Surface::at(rays.scene(), -normal, &hit, false);
+        let ray = Ray { origin: point.position + normal, direction: -normal, chance: Chance::Only };
+        let surface = Surface::at(rays.scene(), &ray, &hit, false);
         let indirect = stored.indirect(&surface);
         Some((stored.total(&surface) - indirect, indirect))
     };

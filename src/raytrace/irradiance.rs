@@ -123,7 +123,7 @@ impl Place {
         let density = |direction: Vec3| self.normal.dot(direction).max(0.0) * std::f32::consts::FRAC_1_PI;
         let mut direct = Vec3::ZERO;
         if paths.lights.has_emitters() {
-            direct += paths.from_emitters(self.origin, self.normal, self.geometric, density, sampler);
+            direct += paths.emitter_irradiance(self.origin, self.normal, self.geometric, density, sampler);
         }
         let direction = cosine_hemisphere(self.normal, sampler.square());
         if direction.dot(self.geometric) <= 0.0 {

@@ -16,7 +16,7 @@ use super::sampler::Sampler;
 use super::surface::Surface;
 use crate::base::ids::TriangleId;
 use crate::base::sampling::{hash, unit_float};
-use crate::scene::Scene;
+use crate::scene::{AlphaMode, Arrival, Scene};
 use crate::trace::{Hit, Tracer};
 
 /// Height of a ray's origin above its surface, as a share of the scene's extent: above rounding, below detail.
@@ -74,7 +74,7 @@ impl<'a> PathTracer<'a> {
             max_bounces,
             has_specular,
             height: HEIGHT * (high - low).max_element(),
-            has_blending: scene.materials.iter().any(|material| material.alpha_mode == crate::scene::AlphaMode::Blend),
+            has_blending: scene.materials.iter().any(|material| material.alpha_mode == AlphaMode::Blend),
         }
     }
 
@@ -128,7 +128,7 @@ impl<'a> PathTracer<'a> {
         let mut throughput = Vec3::ONE;
         for bounce in 0.. {
             let Some(hit) = met else { break };
-            let surface = Surface::at(self.scene(), ray.direction, &hit, self.has_specular);
+            let surface = Surface::at(self.scene(), &ray, &hit, self.has_specular);
             if surface.emission != Vec3::ZERO {
                 let emitted = throughput * surface.emission * self.path_share(&ray, &hit);
                 *(if bounce == 0 { &mut light.emitted } else { &mut light.reflected }) += emitted;
@@ -136,8 +136,7 @@ impl<'a> PathTracer<'a> {
             if bounce == self.max_bounces {
                 break;
             }
-            let path_density = |direction| surface.diffuse_density(direction);
-            light.reflected += throughput * self.direct_beside(&surface, path_density, sampler);
+            light.reflected += throughput * self.direct_beside_path(&surface, sampler);
             let Some(scattered) = surface.scatter(sampler) else { break };
             throughput *= scattered.throughput;
             let chance = match scattered.diffuse_density {
@@ -155,7 +154,7 @@ impl<'a> PathTracer<'a> {
 
     /// The ray that goes on from a surface.
     pub(super) fn onward(&self, surface: &Surface, direction: Vec3, chance: Chance) -> Ray {
-        let side = if direction.dot(surface.normal) > 0.0 { surface.normal } else { -surface.normal };
+        let side = surface.geometric * direction.dot(surface.geometric).signum();
         Ray { origin: self.above(surface.position, side), direction, chance }
     }
 
@@ -170,35 +169,62 @@ impl<'a> PathTracer<'a> {
         }
     }
 
-    /// Radiance towards the viewer of light straight from the lights.
+    /// Radiance towards the viewer of light straight from the lights: from every punctual one, and from one place on an
+    /// emissive triangle.
     pub(super) fn direct(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
-        self.direct_beside(surface, |_| 0.0, sampler)
+        let place = self.above(surface.position, surface.geometric);
+        let punctual: Vec3 = self.lights.punctual(place).map(|arrival| self.reflected(surface, place, &arrival)).sum();
+        punctual + self.reflected_of_emitters(surface, place, |_| 0.0, sampler)
     }
 
-    /// As [`Self::direct`], without the share that falls to a path whose direction has the `path_density`.
-    fn direct_beside(&self, surface: &Surface, path_density: impl Fn(Vec3) -> f32, sampler: &mut Sampler) -> Vec3 {
+    /// As [`Self::direct`], from one of the punctual lights, and without the share of the emissive triangles that falls to
+    /// the path.
+    fn direct_beside_path(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+        let place = self.above(surface.position, surface.geometric);
         let mut radiance = Vec3::ZERO;
-        let (normal, place) = (surface.normal, self.above(surface.position, surface.normal));
         if self.lights.has_punctual()
-            && let Some((arrival, probability)) = self.lights.choose_punctual(place, normal, sampler)
+            && let Some((arrival, probability)) = self.lights.choose_punctual(place, surface.normal, sampler)
         {
-            let mut reflected = surface.reflectance * (FRAC_1_PI * normal.dot(arrival.to_light));
-            if let Some(specular) = &surface.specular {
-                reflected += specular.highlight(surface.to_viewer, arrival.to_light);
-            }
-            let passing = self.tracer.transmittance(place, arrival.to_light, arrival.distance);
-            radiance += reflected * arrival.irradiance * (passing / probability);
+            radiance += self.reflected(surface, place, &arrival) / probability;
         }
-        if self.lights.has_emitters() && surface.reflectance != Vec3::ZERO {
-            let irradiance = self.from_emitters(place, normal, normal, path_density, sampler);
-            radiance += surface.reflectance * FRAC_1_PI * irradiance;
+        radiance + self.reflected_of_emitters(surface, place, |direction| surface.diffuse_density(direction), sampler)
+    }
+
+    /// Radiance towards the viewer of a punctual light, with its highlight and its shadow.
+    fn reflected(&self, surface: &Surface, place: Vec3, arrival: &Arrival) -> Vec3 {
+        let cosine = surface.normal.dot(arrival.to_light);
+        if cosine <= 0.0 || arrival.to_light.dot(surface.geometric) <= 0.0 {
+            return Vec3::ZERO;
         }
-        radiance
+        let mut share = surface.reflectance * (FRAC_1_PI * cosine);
+        if let Some(specular) = &surface.specular {
+            share += specular.highlight(surface.to_viewer, arrival.to_light);
+        }
+        let unhidden = share * arrival.irradiance;
+        if unhidden == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        unhidden * self.tracer.transmittance(place, arrival.to_light, arrival.distance)
+    }
+
+    /// Radiance towards the viewer of the emissive triangles, reflected diffusely.
+    fn reflected_of_emitters(
+        &self,
+        surface: &Surface,
+        place: Vec3,
+        path_density: impl Fn(Vec3) -> f32,
+        sampler: &mut Sampler,
+    ) -> Vec3 {
+        if !self.lights.has_emitters() || surface.reflectance == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let irradiance = self.emitter_irradiance(place, surface.normal, surface.geometric, path_density, sampler);
+        surface.reflectance * FRAC_1_PI * irradiance
     }
 
     /// Irradiance from the emissive triangles on a surface with this shading normal and this geometric one, by one sample,
     /// without the share that falls to a path whose direction has the `path_density`.
-    pub(super) fn from_emitters(
+    pub(super) fn emitter_irradiance(
         &self,
         place: Vec3,
         normal: Vec3,

@@ -35,7 +35,7 @@ pub struct TwoPassSettings {
 
 impl Default for TwoPassSettings {
     fn default() -> Self {
-        Self { samples: 16, ambient: Ambient::Indirect { final_gather: 0 }, seed: 0 }
+        Self { samples: 32, ambient: Ambient::Indirect { final_gather: 0 }, seed: 0 }
     }
 }
 

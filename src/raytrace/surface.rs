@@ -4,6 +4,7 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::Vec3;
 
+use super::path::{Chance, Ray};
 use super::sampler::Sampler;
 use super::specular::Specular;
 use crate::base::colour::luminance;
@@ -22,6 +23,8 @@ pub(super) struct Surface {
     pub is_front: bool,
     pub position: Vec3,
     /// Geometric unit normal on the ray's side.
+    pub geometric: Vec3,
+    /// Unit normal that diffuse reflection takes its cosine to: the smooth one of what the eye sees, else the geometric.
     pub normal: Vec3,
     /// Unit vector back along the ray.
     pub to_viewer: Vec3,
@@ -43,21 +46,22 @@ pub(super) struct Scattered {
 }
 
 impl Surface {
-    /// The surface at `hit`; without `has_specular` it is what radiosity sees: metals absorb and glass is opaque.
-    pub(super) fn at(scene: &Scene, direction: Vec3, hit: &Hit, has_specular: bool) -> Self {
+    /// The surface that `ray` has met at `hit`; without `has_specular` it is what radiosity sees: metals absorb and glass is
+    /// opaque.
+    pub(super) fn at(scene: &Scene, ray: &Ray, hit: &Hit, has_specular: bool) -> Self {
         let [a, b, c] = scene.corners(hit.triangle);
         let weights = hit.barycentric;
         let front = edge_cross([a, b, c]).normalize_or_zero();
         let material = scene.material_of(hit.triangle);
-        let to_viewer = -direction.normalize();
-        let normal = if hit.is_front { front } else { -front };
+        let geometric = if hit.is_front { front } else { -front };
         let mut surface = Self {
             triangle: hit.triangle,
             barycentric: weights,
             is_front: hit.is_front,
             position: a * weights.x + b * weights.y + c * weights.z,
-            normal,
-            to_viewer,
+            geometric,
+            normal: geometric,
+            to_viewer: -ray.direction,
             reflectance: Vec3::ZERO,
             emission: Vec3::ZERO,
             specular: None,
@@ -66,8 +70,12 @@ impl Surface {
             let point = scene.surface_at(hit.triangle, weights);
             surface.emission = point.emission;
             surface.reflectance = point.reflectance;
+            let smooth = surface.shading_normal(scene);
+            if !matches!(ray.chance, Chance::Among { .. }) {
+                surface.normal = smooth;
+            }
             if has_specular && !material.unlit {
-                surface.specular = Specular::of(&point, material, surface.shading_normal(scene));
+                surface.specular = Specular::of(&point, material, smooth);
                 surface.reflectance *= 1.0 - surface.specular.as_ref().map_or(0.0, Specular::clear_share);
             }
         }
@@ -79,8 +87,8 @@ impl Surface {
         let [a, b, c] = scene.triangles[self.triangle.index()].vertices.map(|v| scene.vertices[v as usize].normal);
         let weights = self.barycentric;
         let smooth = (a * weights.x + b * weights.y + c * weights.z).normalize_or_zero();
-        let smooth = if smooth.dot(self.normal) < 0.0 { -smooth } else { smooth };
-        if smooth.dot(self.to_viewer) > 0.0 { smooth } else { self.normal }
+        let smooth = if smooth.dot(self.geometric) < 0.0 { -smooth } else { smooth };
+        if smooth.dot(self.to_viewer) > 0.0 { smooth } else { self.geometric }
     }
 
     /// Density per steradian with which [`Self::scatter`] reflects diffusely into a direction.
@@ -98,14 +106,15 @@ impl Surface {
         };
         if is_diffuse {
             let direction = cosine_hemisphere(self.normal, sampler.square());
-            return Some(Scattered {
+            let is_outside = direction.dot(self.geometric) > 0.0;
+            return is_outside.then(|| Scattered {
                 direction,
                 throughput: self.reflectance / diffuse_share,
                 diffuse_density: Some(self.diffuse_density(direction)),
             });
         }
         let specular = self.specular.as_ref()?;
-        let (direction, throughput) = specular.scatter(self.to_viewer, self.normal, sampler)?;
+        let (direction, throughput) = specular.scatter(self.to_viewer, self.geometric, sampler)?;
         Some(Scattered { direction, throughput: throughput / (1.0 - diffuse_share), diffuse_density: None })
     }
 

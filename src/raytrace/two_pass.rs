@@ -57,7 +57,9 @@ impl SecondPass<'_> {
             };
             radiance += throughput * (surface.emission + self.reflected(&surface, sampler));
             let Some(specular) = &surface.specular else { break };
-            let Some((direction, share)) = specular.scatter(surface.to_viewer, surface.normal, sampler) else { break };
+            let Some((direction, share)) = specular.scatter(surface.to_viewer, surface.geometric, sampler) else {
+                break;
+            };
             throughput *= share;
             ray = self.rays.onward(&surface, direction, Chance::Only);
         }
@@ -66,7 +68,7 @@ impl SecondPass<'_> {
 
     fn meet(&self, ray: &Ray, sampler: &mut Sampler) -> Option<Surface> {
         let hit = self.rays.meet(ray, sampler)?;
-        let mut surface = Surface::at(self.rays.scene(), ray.direction, &hit, true);
+        let mut surface = Surface::at(self.rays.scene(), ray, &hit, true);
         // Whitted's metal is a mirror or nothing.
         if matches!(self.settings.ambient, Ambient::Constant(_)) {
             surface.specular = surface.specular.filter(|specular| specular.is_perfect());
@@ -99,6 +101,9 @@ impl SecondPass<'_> {
             return Vec3::ZERO;
         }
         let direction = cosine_hemisphere(surface.normal, sampler.square());
+        if direction.dot(surface.geometric) <= 0.0 {
+            return Vec3::ZERO;
+        }
         let mut ray = self.rays.onward(surface, direction, Chance::Only);
         let mut radiance = Vec3::ZERO;
         let mut throughput = Vec3::ONE;
@@ -107,7 +112,7 @@ impl SecondPass<'_> {
             let emission = if mirrors > 0 { met.emission } else { Vec3::ZERO };
             radiance += throughput * (emission + met.reflectance * FRAC_1_PI * self.stored.total(&met));
             let Some(specular) = &met.specular else { break };
-            let Some((direction, share)) = specular.scatter(met.to_viewer, met.normal, sampler) else { break };
+            let Some((direction, share)) = specular.scatter(met.to_viewer, met.geometric, sampler) else { break };
             throughput *= share;
             ray = self.rays.onward(&met, direction, Chance::Only);
         }

@@ -94,5 +94,5 @@ fn neutral(colour: Vec3) -> Vec3 {
 /// Interleaved gradient noise in -0.49..0.49, as in shaders/tonemap.wgsl.
 fn gradient_noise([x, y]: [u32; 2]) -> f32 {
     let pattern = (x as f32 * 0.067_110_56 + y as f32 * 0.005_837_15).fract();
-    (52.982_918_9 * pattern).fract() * 0.98 - 0.49
+    (52.982_92 * pattern).fract() * 0.98 - 0.49
 }
