@@ -27,6 +27,9 @@ pub struct Viewpoint {
     pub seed: u32,
 }
 
+/// A viewpoint that sees more back faces than this share lies inside something. One behind a single-sided sheet sees half.
+pub const MAX_BACK_SHARE: f32 = 0.8;
+
 /// Form factors from one viewpoint: all entries, `back` and `sky` sum to 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {

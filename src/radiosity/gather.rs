@@ -12,11 +12,8 @@ use super::cache::IrradianceCache;
 use super::field::Field;
 use crate::base::progress::{Progress, Stage};
 use crate::base::sampling::hash;
-use crate::form_factor::{FormFactorError, FormFactors, Row, Viewpoint, map_rows};
+use crate::form_factor::{FormFactorError, FormFactors, MAX_BACK_SHARE, Row, Viewpoint, map_rows};
 use crate::patch::PatchMesh;
-
-/// A site that sees more back faces than this share lies inside something.
-const MAX_BACK_SHARE: f32 = 0.8;
 
 /// Sites gathered before the cache is asked again.
 const ROUND: usize = 512;

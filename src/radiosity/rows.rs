@@ -3,7 +3,7 @@
 use super::sites::Sites;
 use crate::base::ids::PatchId;
 use crate::base::progress::Progress;
-use crate::form_factor::{Entry, FormFactorError, FormFactors, Viewpoint, map_rows};
+use crate::form_factor::{Entry, FormFactorError, FormFactors, MAX_BACK_SHARE, Viewpoint, map_rows};
 use crate::patch::PatchMesh;
 
 /// What a patch sees: one entry an element, sorted by element.
@@ -107,20 +107,22 @@ fn merged(entries: &[Entry]) -> Vec<Entry> {
     sorted
 }
 
-/// The mean of the rows of one patch's viewpoints.
+/// The mean of the rows of one patch's viewpoints. Those inside something are left out where there are others: no light
+/// comes or goes there, and the part that is open shall not be darker for it.
 fn mean_row(rows: &[PatchRow]) -> PatchRow {
-    if let [row] = rows {
+    let is_open = |row: &&PatchRow| row.back <= MAX_BACK_SHARE;
+    let num_open = rows.iter().filter(is_open).count();
+    let counted: Vec<&PatchRow> =
+        if num_open > 0 { rows.iter().filter(is_open).collect() } else { rows.iter().collect() };
+    if let [row] = counted[..] {
         return row.clone();
     }
-    let share = 1.0 / rows.len() as f32;
-    let all: Vec<Entry> = rows
-        .iter()
-        .flat_map(|row| &row.entries)
-        .map(|entry| Entry { factor: entry.factor * share, ..*entry })
-        .collect();
+    let share = 1.0 / counted.len() as f32;
+    let scaled = |entry: &Entry| Entry { factor: entry.factor * share, ..*entry };
+    let all: Vec<Entry> = counted.iter().flat_map(|row| &row.entries).map(scaled).collect();
     PatchRow {
         entries: merged(&all),
-        back: rows.iter().map(|row| row.back).sum::<f32>() * share,
-        sky: rows.iter().map(|row| row.sky).sum::<f32>() * share,
+        back: counted.iter().map(|row| row.back).sum::<f32>() * share,
+        sky: counted.iter().map(|row| row.sky).sum::<f32>() * share,
     }
 }
