@@ -45,19 +45,6 @@ pub fn triangle_from_square(square: Vec2) -> Vec3 {
     Vec3::new(1.0 - x - y, x, y)
 }
 
-/// Point of the unit disc, uniformly distributed, from a point of the unit square.
-///
-/// Source: Shirley, Chiu 1997, "A Low Distortion Map Between Disk and Square".
-#[must_use]
-pub fn disc_from_square(square: Vec2) -> Vec2 {
-    let p = 2.0 * square - Vec2::ONE;
-    if p == Vec2::ZERO {
-        return p;
-    }
-    let (radius, eighths) = if p.x.abs() > p.y.abs() { (p.x, p.y / p.x) } else { (p.y, 2.0 - p.x / p.y) };
-    radius * Vec2::from_angle(std::f32::consts::FRAC_PI_4 * eighths)
-}
-
 /// Place of a point of the unit square along a Z-shaped space-filling curve.
 #[must_use]
 pub fn morton_2d(square: Vec2) -> u32 {
@@ -110,14 +97,6 @@ mod tests {
             assert!((t.cross(b) - n).length() < 1e-5);
             assert!(t.dot(b).abs() < 1e-5 && (t.length() - 1.0).abs() < 1e-5);
         }
-    }
-
-    #[test]
-    fn disc_samples_fill_rings_by_their_area() {
-        let disc: Vec<Vec2> = (0..4096).map(|i| disc_from_square(r2(i, 2))).collect();
-        let share = |radius: f32| disc.iter().filter(|p| p.length() < radius).count() as f32 / 4096.0;
-        assert!((share(0.5) - 0.25).abs() < 3e-3 && share(1.0 + 1e-6) == 1.0);
-        assert!(disc.iter().sum::<Vec2>().length() / 4096.0 < 2e-3);
     }
 
     #[test]

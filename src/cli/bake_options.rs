@@ -83,7 +83,8 @@ pub fn positive(text: &str) -> Result<f32, String> {
     }
 }
 
-fn hemicube_size(text: &str) -> Result<u32, String> {
+/// Parses the width of a hemicube.
+pub fn hemicube_size(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(size @ (16 | 32 | 64 | 128 | 256 | 512)) => Ok(size),
         _ => Err("must be 16, 32, 64, 128, 256 or 512".to_owned()),

@@ -2,6 +2,7 @@
 
 pub mod bake;
 pub mod bake_options;
+pub mod form_factors;
 pub mod info;
 pub mod measure;
 pub mod ray_options;
@@ -47,6 +48,8 @@ pub enum Command {
     Render(render::RenderArgs),
     /// Find the irradiance at given points.
     Measure(measure::MeasureArgs),
+    /// Find the form factors (view factors) between pairs of polygons.
+    FormFactors(form_factors::FormFactorArgs),
     /// Tell what is in a scene and what the mesh doctor finds.
     Info(info::InfoArgs),
 }
@@ -78,6 +81,7 @@ pub fn run(cli: &Cli) -> Result<()> {
         Some(Command::Bake(args)) => bake::run(args, cli.verbosity.is_quiet()),
         Some(Command::Render(args)) => render::run(args, cli.verbosity.is_quiet()),
         Some(Command::Measure(args)) => measure::run(args, cli.verbosity.is_quiet()),
+        Some(Command::FormFactors(args)) => form_factors::run(args),
         Some(Command::Info(args)) => info::run(args),
         None => view::run(&cli.view),
     }

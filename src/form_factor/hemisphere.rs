@@ -1,18 +1,21 @@
 //! Form factors by the hemisphere method: Nusselt's analogue with rays, on the CPU alone.
 //!
 //! Rays leave the viewpoint with the density of the cosine, so that each is worth the same: 1/N. That is the projection of
-//! the hemisphere on to its base circle, sampled. The directions are one table for all viewpoints, turned about the normal
-//! of each; they stand along a space-filling curve, so that neighbouring rays meet the same triangles.
+//! the hemisphere on to its base circle, sampled. The directions are one table for all viewpoints; each turns it about its
+//! normal and shifts it from the pole to the horizon. They stand along a space-filling curve, so that neighbouring rays meet
+//! the same triangles.
 //!
 //! Source: Nusselt 1928, "Graphische Bestimmung des Winkelverhältnisses bei der Wärmestrahlung"; Malley 1988 (rays);
-//! Shirley, Chiu 1997 (the map from the square to the disc).
+//! Cranley, Patterson 1976 (shifted points).
+
+use std::f32::consts::TAU;
 
 use glam::Vec2;
 use rayon::prelude::*;
 
 use super::{Entry, FormFactorError, FormFactors, Row, Viewpoint};
 use crate::base::ids::TriangleId;
-use crate::base::sampling::{disc_from_square, hash, morton_2d, r2, tangent_frame, unit_float};
+use crate::base::sampling::{hash, morton_2d, r2, tangent_frame, unit_float};
 use crate::patch::PatchMesh;
 use crate::trace::{Hit, Tracer};
 
@@ -23,8 +26,8 @@ const BATCH: usize = 256;
 pub struct Hemispheres<'a> {
     tracer: &'a Tracer<'a>,
     mesh: &'a PatchMesh,
-    /// Points of the unit disc, evenly distributed.
-    disc: Vec<Vec2>,
+    /// Evenly spread on the base circle: square of the radius, and unit vector of the angle.
+    table: Vec<(f32, Vec2)>,
 }
 
 impl<'a> Hemispheres<'a> {
@@ -33,7 +36,8 @@ impl<'a> Hemispheres<'a> {
     pub fn new(tracer: &'a Tracer<'a>, mesh: &'a PatchMesh, num_rays: u32) -> Self {
         let mut squares: Vec<Vec2> = (0..num_rays.max(1)).map(|i| r2(i, 0)).collect();
         squares.sort_by_key(|square| morton_2d(*square));
-        Self { tracer, mesh, disc: squares.into_iter().map(disc_from_square).collect() }
+        let polar = |square: Vec2| (square.x, Vec2::from_angle(square.y * TAU));
+        Self { tracer, mesh, table: squares.into_iter().map(polar).collect() }
     }
 
     /// Standard error of a form factor found as `factor`, if its rays were independent; evenly spread rays do better.
@@ -46,14 +50,16 @@ impl<'a> Hemispheres<'a> {
 
     fn see(&self, viewpoint: &Viewpoint, row: &mut Row) {
         row.entries.clear();
-        let share = 1.0 / self.disc.len() as f32;
+        let share = 1.0 / self.table.len() as f32;
         let (mut num_back, mut num_sky) = (0, 0);
         let (tangent, bitangent) = tangent_frame(viewpoint.normal);
-        let (sin, cos) = (unit_float(hash(viewpoint.seed)) * std::f32::consts::TAU).sin_cos();
+        let (sin, cos) = (unit_float(hash(viewpoint.seed)) * TAU).sin_cos();
         let (x, y) = (tangent * cos + bitangent * sin, bitangent * cos - tangent * sin);
-        for (i, disc) in self.disc.iter().enumerate() {
-            let height = (1.0 - disc.length_squared()).max(0.0).sqrt();
-            let direction = x * disc.x + y * disc.y + viewpoint.normal * height;
+        let shift = unit_float(hash(viewpoint.seed ^ 0x9e37_79b9));
+        for (i, (squared, angle)) in self.table.iter().enumerate() {
+            let squared = (squared + shift).fract();
+            let base = (x * angle.x + y * angle.y) * squared.sqrt();
+            let direction = base + viewpoint.normal * (1.0 - squared).sqrt();
             let seed = viewpoint.seed ^ hash(i as u32);
             // A pane stops a ray with the probability of its opacity.
             let solid_from = |triangle: TriangleId| 1.0 - unit_float(hash(seed ^ hash(triangle.0)));

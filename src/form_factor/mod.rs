@@ -5,8 +5,13 @@
 //! [`FormFactors`] and check each other in the tests.
 
 pub mod analytic;
+pub mod contour;
 pub mod hemicube;
 pub mod hemisphere;
+pub mod pair;
+pub mod polygon;
+
+mod quadrature;
 
 use std::sync::OnceLock;
 
