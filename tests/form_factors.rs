@@ -3,6 +3,8 @@
 use glam::Vec3;
 use hemicube::form_factor::hemicube::Hemicubes;
 use hemicube::form_factor::hemisphere::Hemispheres;
+use hemicube::form_factor::pair::PolygonPair;
+use hemicube::form_factor::polygon::Polygon;
 use hemicube::form_factor::{FormFactors, Row, Viewpoint, map_rows};
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::sites::Sites;
@@ -124,4 +126,55 @@ fn a_half_transparent_pane_takes_half_of_the_view() {
     let row = &rows(&mut Hemispheres::new(&tracer, &mesh, 4096), &[viewpoint])[0];
     let seen: f32 = row.entries.iter().map(|entry| entry.factor).sum();
     assert!((seen - 0.5).abs() < 0.03 && (row.sky - 0.5).abs() < 0.03, "{seen} and {}", row.sky);
+}
+
+fn polygon(corners: &[[f64; 3]]) -> Polygon {
+    Polygon::new(corners.iter().map(|&corner| corner.into()).collect()).unwrap()
+}
+
+/// A unit square that faces up, and what it exchanges light with; the last number is the published form factor.
+fn published_pairs() -> Vec<(PolygonPair, f64)> {
+    let floor = || polygon(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
+    let ceiling = |z: f64| polygon(&[[0., 1., z], [1., 1., z], [1., 0., z], [0., 0., z]]);
+    let wall = polygon(&[[0., 0., 0.], [0., 1., 0.], [0., 1., 1.], [0., 0., 1.]]);
+    vec![
+        (PolygonPair { a: floor(), b: ceiling(1.0), blocker: None }, 0.199_824_9),
+        (PolygonPair { a: floor(), b: ceiling(0.01), blocker: None }, 0.980_416_6),
+        (PolygonPair { a: floor(), b: wall, blocker: None }, 0.200_043_8),
+    ]
+}
+
+/// A small square between two large ones takes away what it sees of both: no closed form is as simple, but the methods have
+/// no step in common.
+fn blocked_pair() -> PolygonPair {
+    let square = |size: f64, z: f64| polygon(&[[-size, -size, z], [size, -size, z], [size, size, z], [-size, size, z]]);
+    let ceiling = polygon(&[[-1., 1., 1.], [1., 1., 1.], [1., -1., 1.], [-1., -1., 1.]]);
+    PolygonPair { a: square(1.0, 0.0), b: ceiling, blocker: Some(square(0.5, 0.7)) }
+}
+
+#[test]
+fn three_methods_find_the_published_form_factors() {
+    for (pair, exact) in published_pairs() {
+        let analytic = pair.analytic().factor;
+        assert!((analytic - exact).abs() < 1e-6, "{analytic} {exact}");
+        let rays = pair.by_hemispheres().unwrap();
+        assert!((rays.factor - exact).abs() < (3.0 * rays.error).min(1e-3), "{rays:?} {exact}");
+        if let Some(gpu) = gpu() {
+            let cubes = pair.by_hemicubes(gpu, 128).unwrap();
+            assert!((cubes.factor / exact - 1.0).abs() < 0.01, "{cubes:?} {exact}");
+        }
+    }
+}
+
+#[test]
+fn three_methods_agree_behind_a_blocker() {
+    let pair = blocked_pair();
+    let open = PolygonPair { blocker: None, ..pair.clone() }.analytic().factor;
+    let analytic = pair.analytic();
+    assert!(analytic.factor < 0.8 * open && analytic.error < 1e-6, "{analytic:?} of {open}");
+    let rays = pair.by_hemispheres().unwrap();
+    assert!((rays.factor - analytic.factor).abs() < 3.0 * rays.error, "{rays:?} {analytic:?}");
+    let Some(gpu) = gpu() else { return };
+    let cubes = pair.by_hemicubes(gpu, 128).unwrap();
+    assert!((cubes.factor / analytic.factor - 1.0).abs() < 0.02, "{cubes:?} {analytic:?}");
 }

@@ -39,10 +39,7 @@ pub struct Estimate {
 const HEMISPHERES: (u32, u32) = (8192, 512);
 
 /// Points of the smaller polygon on which hemicubes stand.
-const NUM_HEMICUBES: u32 = 512;
-
-/// Groups of hemicubes whose scatter tells the error.
-const NUM_BATCHES: usize = 16;
+const NUM_HEMICUBES: u32 = 1024;
 
 /// Absolute error of the closed form behind a blocker.
 const TOLERANCE: f64 = 1e-8;
@@ -96,11 +93,11 @@ impl PolygonPair {
     pub fn by_hemicubes(&self, gpu: &Gpu, size_px: u32) -> Result<Estimate, FormFactorError> {
         let staged = Staged::new(self);
         let seen = staged.seen(&mut Hemicubes::new(gpu, &staged.scene, &staged.mesh, size_px), NUM_HEMICUBES)?;
-        let means: Vec<f64> =
-            seen.chunks(seen.len() / NUM_BATCHES).map(|batch| batch.iter().sum::<f64>() / batch.len() as f64).collect();
-        let factor = means.iter().sum::<f64>() / means.len() as f64;
-        let variance = means.iter().map(|mean| (mean - factor).powi(2)).sum::<f64>() / (means.len() - 1) as f64;
-        Ok(staged.turned(Estimate { factor, error: (variance / means.len() as f64).sqrt() }))
+        let count = seen.len() as f64;
+        let factor = seen.iter().sum::<f64>() / count;
+        let variance = seen.iter().map(|value| (value - factor).powi(2)).sum::<f64>() / (count - 1.0);
+        // Evenly spread points do better than independent ones.
+        Ok(staged.turned(Estimate { factor, error: (variance / count).sqrt() }))
     }
 }
 
@@ -166,32 +163,30 @@ impl Staged {
 
     /// Share of the view that the larger polygon takes, from each of `num_points` points.
     fn seen(&self, method: &mut dyn FormFactors, num_points: u32) -> Result<Vec<f64>, FormFactorError> {
-        let viewpoints: Vec<Viewpoint> = (0..num_points).map(|i| self.viewpoint(i)).collect();
-        map_rows(method, &viewpoints, &|| true, |_, row| {
+        map_rows(method, &self.viewpoints(num_points), &|| true, |_, row| {
             let is_seen = |e: usize| self.mesh.elements[e].triangle.index() < self.num_seen;
             row.entries.iter().filter(|entry| is_seen(entry.element.index())).map(|e| f64::from(e.factor)).sum()
         })
     }
 
-    /// The `i`-th of a sequence of points spread evenly over the viewer.
-    fn viewpoint(&self, i: u32) -> Viewpoint {
+    /// `num_points` points spread evenly over the viewer: each triangle of its fan has a sequence of its own, as long as its
+    /// share of the area.
+    fn viewpoints(&self, num_points: u32) -> Vec<Viewpoint> {
         let corners = self.viewer.corners();
-        let square = r2(i, 0);
-        let mut left = f64::from(square.x) * self.viewer.area();
-        let mut fan = (1..corners.len() - 1).map(|k| [corners[0], corners[k], corners[k + 1]]).peekable();
-        let area_of = |[a, b, c]: [DVec3; 3]| 0.5 * (b - a).cross(c - a).length();
-        let mut chosen = [corners[0]; 3];
-        while let Some(triangle) = fan.next() {
-            chosen = triangle;
-            if left < area_of(triangle) || fan.peek().is_none() {
-                break;
+        let mut viewpoints = Vec::with_capacity(num_points as usize);
+        let mut covered = 0.0;
+        for k in 1..corners.len() - 1 {
+            let [a, b, c] = [corners[0], corners[k], corners[k + 1]];
+            covered += 0.5 * (b - a).cross(c - a).length() / self.viewer.area();
+            let end = (covered * f64::from(num_points)).round() as usize;
+            for i in 0..end.saturating_sub(viewpoints.len()) as u32 {
+                let weights = triangle_from_square(r2(i, k as u32)).as_dvec3();
+                let position = (a * weights.x + b * weights.y + c * weights.z).as_vec3();
+                let seed = viewpoints.len() as u32;
+                viewpoints.push(Viewpoint { position, normal: self.viewer.normal().as_vec3(), seed });
             }
-            left -= area_of(triangle);
         }
-        let within = (left / area_of(chosen)).clamp(0.0, 1.0) as f32;
-        let weights = triangle_from_square(Vec2::new(within, square.y)).as_dvec3();
-        let position = chosen[0] * weights.x + chosen[1] * weights.y + chosen[2] * weights.z;
-        Viewpoint { position: position.as_vec3(), normal: self.viewer.normal().as_vec3(), seed: i }
+        viewpoints
     }
 
     fn turned(&self, estimate: Estimate) -> Estimate {
