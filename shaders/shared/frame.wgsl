@@ -35,3 +35,7 @@ struct Frame {
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
+
+fn group_weight(group: u32) -> vec3f {
+    return frame.group_weights[min(group, MAX_GROUPS - 1u)].rgb;
+}

@@ -4,6 +4,7 @@ pub mod bake;
 pub mod bake_options;
 pub mod info;
 pub mod render;
+pub mod shadow_options;
 mod terminal;
 pub mod view;
 

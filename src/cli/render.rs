@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::Vec3;
 
 use super::bake_options::{BakeOptions, lit_scene, load, positive};
+use super::shadow_options::{ShadowOptions, compare_shadows};
 use crate::baked::{self, BakedScene, VertexLight};
 use crate::gpu::Gpu;
 use crate::render::picture::check_size;
@@ -41,6 +42,9 @@ pub struct RenderArgs {
     /// Largest relative root mean square error against the reference.
     #[arg(long, value_name = "T", default_value = "0.05", value_parser = positive, requires = "reference")]
     pub threshold: f32,
+    /// Which shadows direct light throws.
+    #[command(flatten)]
+    pub shadows: ShadowOptions,
     /// How to bake where the file stores no light.
     #[command(flatten)]
     pub bake: BakeOptions,
@@ -78,6 +82,9 @@ pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
     let gpu = Gpu::headless()?;
     check_size(&gpu, args.size.0)?;
 
+    if let Some(techniques) = args.shadows.compared()? {
+        return compare_shadows(&gpu, unbaked(scene), &camera, args.size.0, &techniques, &args.output);
+    }
     let baked = light(&gpu, scene, args, is_quiet)?;
     let picture = picture(&gpu, &baked, &camera, args.size.0, &look(args, &baked))?;
     picture.save(&args.output)?;
@@ -99,20 +106,29 @@ fn choose_camera(scene: &Scene, wanted: Option<&str>) -> Result<Camera> {
 
 /// The scene with the light that is to be shown.
 fn light(gpu: &Gpu, scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
-    if args.lighting != Lighting::Ambient {
-        return lit_scene(gpu, scene, &args.bake.settings(), is_quiet);
-    }
-    Ok(baked::gltf::from_scene(scene).unwrap_or_else(|scene| BakedScene {
+    let needs_no_bake = match args.lighting {
+        Lighting::Ambient => true,
+        Lighting::Direct => args.shadows.shadows.is_some(),
+        Lighting::Radiosity | Lighting::IndirectAndDirect => false,
+    };
+    if needs_no_bake { Ok(unbaked(scene)) } else { lit_scene(gpu, scene, &args.bake.settings(), is_quiet) }
+}
+
+/// The scene with the light it stores, else with none.
+fn unbaked(scene: Scene) -> BakedScene {
+    baked::gltf::from_scene(scene).unwrap_or_else(|scene| BakedScene {
         light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()),
         scene,
-    }))
+    })
 }
 
 fn look(args: &RenderArgs, baked: &BakedScene) -> Look {
-    let all = Look { exposure: args.exposure, ..Look::default() };
+    let all = Look { exposure: args.exposure, shadows: args.shadows.settings(), ..Look::default() };
+    // Ambient light takes the place of the stored light; shadows bring direct light of their own.
+    let shadowed = f32::from(u8::from(all.shadows.is_some()));
     match args.lighting {
         Lighting::Direct => Look { indirect: 0.0, ..all },
-        Lighting::Ambient => Look { direct: 0.0, indirect: 0.0, ambient: mean_radiance(&baked.light), ..all },
+        Lighting::Ambient => Look { direct: shadowed, indirect: 0.0, ambient: mean_radiance(&baked.light), ..all },
         Lighting::Radiosity | Lighting::IndirectAndDirect => all,
     }
 }

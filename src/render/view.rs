@@ -44,6 +44,13 @@ impl View {
     pub fn projection_from_world(&self) -> Mat4 {
         self.projection_from_view * self.view_from_world
     }
+
+    /// From a point to the eye, metres; in an orthographic view, whose eye is infinitely far, one metre towards it.
+    #[must_use]
+    pub fn towards_eye(&self, point: Vec3) -> Vec3 {
+        let is_perspective = self.projection_from_view.w_axis.w == 0.0;
+        if is_perspective { self.camera_position - point } else { self.view_from_world.row(2).truncate() }
+    }
 }
 
 #[cfg(test)]
@@ -70,6 +77,7 @@ mod tests {
         let view = View::from_camera(&camera, 1.0);
         assert!((depth(&view, Vec3::ZERO) - 1.0).abs() < 1e-6);
         assert!(depth(&view, Vec3::NEG_Z) > depth(&view, 2.0 * Vec3::NEG_Z));
+        assert!((view.towards_eye(Vec3::X) - Vec3::Z).length() < 1e-6);
         let top = view.projection_from_world().project_point3(Vec3::new(0.0, 2.0, -5.0));
         assert!((top.y - 1.0).abs() < 1e-6, "{top}");
     }

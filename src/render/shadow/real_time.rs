@@ -1,0 +1,152 @@
+//! Direct light, light sample by light sample, in the shadows of one technique.
+
+use super::depth_prepass::DepthPrepass;
+use super::direct_light::{self, DirectLightPass};
+use super::light_samples::light_samples;
+use super::light_targets::LightTargets;
+use super::light_uniforms::{LightUniforms, light_sample_layout};
+use super::raytraced::RaytracedLight;
+use super::{ShadowScene, ShadowSettings, ShadowTechnique};
+use crate::gpu::readback::read_texture;
+use crate::gpu::{Gpu, GpuError, SceneBuffers, shaders};
+use crate::render::picture::f32_from_half;
+use crate::render::{Look, View};
+
+/// What a picture is of: the same for every pass.
+#[derive(Clone, Copy)]
+pub struct Subject<'a> {
+    /// Bind group 0.
+    pub frame: &'a wgpu::BindGroup,
+    /// On the device.
+    pub scene: &'a SceneBuffers,
+    /// Its casters and lights.
+    pub shadows: &'a ShadowScene,
+    /// From where.
+    pub view: &'a View,
+    /// How.
+    pub look: &'a Look,
+}
+
+/// Direct light for pictures with one number of samples a pixel.
+pub struct RealTimeLight {
+    samples: u32,
+    sample_layout: wgpu::BindGroupLayout,
+    prepass: DepthPrepass,
+    unshadowed: DirectLightPass,
+    raytraced: RaytracedLight,
+    targets: Option<LightTargets>,
+}
+
+impl RealTimeLight {
+    /// Passes for pictures with `samples` samples a pixel.
+    #[must_use]
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32) -> Self {
+        let sample_layout = light_sample_layout(gpu);
+        let layouts = [Some(frame_layout), Some(&sample_layout)];
+        Self {
+            samples,
+            prepass: DepthPrepass::new(gpu, frame_layout, samples),
+            unshadowed: DirectLightPass::new(gpu, &layouts, &shaders::DIRECT_LIGHT, samples),
+            raytraced: RaytracedLight::new(gpu, frame_layout),
+            sample_layout,
+            targets: None,
+        }
+    }
+
+    /// Records the direct light of a picture of `size` pixels: a texture of irradiance times pre-exposure, with as many
+    /// samples a pixel as the picture, with one where it is ray-traced.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        size: [u32; 2],
+        subject: Subject<'_>,
+        settings: &ShadowSettings,
+    ) -> wgpu::TextureView {
+        let samples = light_samples(subject.shadows.scene(), settings.light_samples);
+        if settings.technique == ShadowTechnique::Raytraced {
+            return self.raytraced.draw(gpu, size, subject, &samples);
+        }
+        let targets = self.targets_of(gpu, size);
+        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
+
+        // Which surfaces are visible, and no light on them.
+        self.prepass.draw(encoder, &targets, subject.frame, subject.scene, subject.look);
+        direct_light::clear(encoder, &targets);
+        // One shadow and one layer of light after the other.
+        for index in 0..samples.len() {
+            self.add_sample(gpu, encoder, &targets, subject, settings, &lights, index);
+        }
+        self.targets.insert(targets).irradiance_view.clone()
+    }
+
+    /// Which pixels each light sample lights, `[sample][pixel]`; for passes with one sample a pixel.
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn decisions(
+        &mut self,
+        gpu: &Gpu,
+        size: [u32; 2],
+        subject: Subject<'_>,
+        settings: &ShadowSettings,
+    ) -> Result<Vec<Vec<bool>>, GpuError> {
+        assert_eq!(self.samples, 1, "decisions are taken pixel by pixel");
+        let samples = light_samples(subject.shadows.scene(), settings.light_samples);
+        if settings.technique == ShadowTechnique::Raytraced {
+            return self.raytraced.decisions(gpu, size, subject, &samples);
+        }
+        let targets = self.targets_of(gpu, size);
+        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
+        let mut decisions = Vec::with_capacity(samples.len());
+        for index in 0..samples.len() {
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            self.prepass.draw(&mut encoder, &targets, subject.frame, subject.scene, subject.look);
+            direct_light::clear(&mut encoder, &targets);
+            self.add_sample(gpu, &mut encoder, &targets, subject, settings, &lights, index);
+            gpu.queue.submit([encoder.finish()]);
+            decisions.push(lit_pixels(gpu, &targets)?);
+        }
+        self.targets = Some(targets);
+        Ok(decisions)
+    }
+
+    fn targets_of(&mut self, gpu: &Gpu, size: [u32; 2]) -> LightTargets {
+        match self.targets.take() {
+            Some(targets) if targets.size == size => targets,
+            _ => LightTargets::new(gpu, size, self.samples),
+        }
+    }
+
+    /// Adds one light sample where it is not in shadow.
+    #[expect(clippy::too_many_arguments, reason = "where to draw, what of it and how")]
+    fn add_sample(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &LightTargets,
+        subject: Subject<'_>,
+        settings: &ShadowSettings,
+        lights: &LightUniforms,
+        index: usize,
+    ) {
+        let _ = (gpu, settings);
+        drop(direct_light::begin_stencil(encoder, targets));
+        let mut pass = direct_light::begin(encoder, targets);
+        pass.set_bind_group(0, subject.frame, &[]);
+        lights.bind(&mut pass, index);
+        self.unshadowed.draw(&mut pass, subject.scene, subject.look);
+    }
+}
+
+/// Pixels in which at least half of the light sample is seen.
+fn lit_pixels(gpu: &Gpu, targets: &LightTargets) -> Result<Vec<bool>, GpuError> {
+    if targets.irradiance.format() == wgpu::TextureFormat::Rgba32Float {
+        let bytes = read_texture(gpu, &targets.irradiance, 16)?;
+        let seen = |pixel: &[u8; 16]| f32::from_le_bytes([pixel[12], pixel[13], pixel[14], pixel[15]]);
+        return Ok(bytes.as_chunks().0.iter().map(|pixel| seen(pixel) >= 0.5).collect());
+    }
+    let bytes = read_texture(gpu, &targets.irradiance, 8)?;
+    let seen = |pixel: &[u8; 8]| f32_from_half(u16::from_le_bytes([pixel[6], pixel[7]]));
+    Ok(bytes.as_chunks().0.iter().map(|pixel| seen(pixel) >= 0.5).collect())
+}
