@@ -46,6 +46,9 @@ pub const DIRECT_LIGHT: Shader = shader!(
     "shared/visibility_stencil.wgsl",
     "direct_light.wgsl"
 );
+/// Counts shadow volumes in the stencil.
+pub const SHADOW_VOLUME: Shader =
+    shader!("shadow volume", "shared/frame.wgsl", "shared/light_sample.wgsl", "shadow_volume.wgsl");
 /// Places and normals of visible points.
 pub const VISIBLE_POINTS: Shader =
     shader!("visible points", "shared/frame.wgsl", "shared/visible_point.wgsl", "raytraced.wgsl");
@@ -78,6 +81,7 @@ pub const ALL: &[&Shader] = &[
     &SURFACE_LIT_SAMPLES,
     &DEPTH_PREPASS,
     &DIRECT_LIGHT,
+    &SHADOW_VOLUME,
     &VISIBLE_POINTS,
     &METER,
     &TONEMAP,

@@ -45,6 +45,12 @@ impl View {
         self.projection_from_view * self.view_from_world
     }
 
+    /// Depth at a distance along the axis of the view, metres.
+    #[must_use]
+    pub fn depth_at(&self, distance: f32) -> f32 {
+        self.projection_from_view.project_point3(Vec3::new(0.0, 0.0, -distance)).z
+    }
+
     /// From a point to the eye, metres; in an orthographic view, whose eye is infinitely far, one metre towards it.
     #[must_use]
     pub fn towards_eye(&self, point: Vec3) -> Vec3 {

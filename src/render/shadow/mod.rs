@@ -5,15 +5,19 @@
 //! [`difference`] measures the others. Deliberately absent: shadows of surfaces that blend (they count as solid from
 //! half opacity on) and shadows on them (they keep the light of the bake).
 
+pub mod casters;
 pub mod difference;
 pub mod light_samples;
 pub mod real_time;
 pub mod scene;
+pub mod shadow_volume;
+pub mod silhouette;
 
 mod depth_prepass;
 mod direct_light;
 mod light_targets;
 mod light_uniforms;
+mod near_plane;
 mod raytraced;
 mod solid;
 
@@ -21,6 +25,7 @@ pub use difference::{Decisions, ShadowDifference, shadow_difference};
 pub use light_samples::{LightSample, light_samples};
 pub use real_time::RealTimeLight;
 pub use scene::ShadowScene;
+pub use shadow_volume::VolumeSettings;
 
 /// How shadows are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,12 +51,14 @@ pub struct ShadowSettings {
     pub technique: ShadowTechnique,
     /// Points on each emissive surface, 1 to 256; each throws one hard shadow.
     pub light_samples: u32,
+    /// Of shadow volumes.
+    pub volumes: VolumeSettings,
 }
 
 impl ShadowSettings {
     /// `technique` with the settings that show none of its faults.
     #[must_use]
     pub fn new(technique: ShadowTechnique) -> Self {
-        Self { technique, light_samples: 1 }
+        Self { technique, light_samples: 1, volumes: VolumeSettings::default() }
     }
 }

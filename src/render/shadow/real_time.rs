@@ -2,10 +2,12 @@
 
 use super::depth_prepass::DepthPrepass;
 use super::direct_light::{self, DirectLightPass};
-use super::light_samples::light_samples;
+use super::light_samples::{LightSample, light_samples};
 use super::light_targets::LightTargets;
 use super::light_uniforms::{LightUniforms, light_sample_layout};
 use super::raytraced::RaytracedLight;
+use super::shadow_volume::ShadowVolumePass;
+use super::silhouette::Counting;
 use super::{ShadowScene, ShadowSettings, ShadowTechnique};
 use crate::gpu::readback::read_texture;
 use crate::gpu::{Gpu, GpuError, SceneBuffers, shaders};
@@ -33,6 +35,7 @@ pub struct RealTimeLight {
     sample_layout: wgpu::BindGroupLayout,
     prepass: DepthPrepass,
     unshadowed: DirectLightPass,
+    volumes: ShadowVolumePass,
     raytraced: RaytracedLight,
     targets: Option<LightTargets>,
 }
@@ -47,6 +50,7 @@ impl RealTimeLight {
             samples,
             prepass: DepthPrepass::new(gpu, frame_layout, samples),
             unshadowed: DirectLightPass::new(gpu, &layouts, &shaders::DIRECT_LIGHT, samples),
+            volumes: ShadowVolumePass::new(gpu, frame_layout, &sample_layout, samples),
             raytraced: RaytracedLight::new(gpu, frame_layout),
             sample_layout,
             targets: None,
@@ -69,13 +73,14 @@ impl RealTimeLight {
         }
         let targets = self.targets_of(gpu, size);
         let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
+        self.prepare(gpu, subject, &samples, settings);
 
         // Which surfaces are visible, and no light on them.
         self.prepass.draw(encoder, &targets, subject.frame, subject.scene, subject.look);
         direct_light::clear(encoder, &targets);
         // One shadow and one layer of light after the other.
-        for index in 0..samples.len() {
-            self.add_sample(gpu, encoder, &targets, subject, settings, &lights, index);
+        for (index, sample) in samples.iter().enumerate() {
+            self.add_sample(encoder, &targets, subject, settings, &lights, (index, sample));
         }
         self.targets.insert(targets).irradiance_view.clone()
     }
@@ -98,12 +103,13 @@ impl RealTimeLight {
         }
         let targets = self.targets_of(gpu, size);
         let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
+        self.prepare(gpu, subject, &samples, settings);
         let mut decisions = Vec::with_capacity(samples.len());
-        for index in 0..samples.len() {
+        for (index, sample) in samples.iter().enumerate() {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             self.prepass.draw(&mut encoder, &targets, subject.frame, subject.scene, subject.look);
             direct_light::clear(&mut encoder, &targets);
-            self.add_sample(gpu, &mut encoder, &targets, subject, settings, &lights, index);
+            self.add_sample(&mut encoder, &targets, subject, settings, &lights, (index, sample));
             gpu.queue.submit([encoder.finish()]);
             decisions.push(lit_pixels(gpu, &targets)?);
         }
@@ -118,24 +124,46 @@ impl RealTimeLight {
         }
     }
 
+    /// Does for all light samples what can be done before the first pass.
+    fn prepare(&mut self, gpu: &Gpu, subject: Subject<'_>, samples: &[LightSample], settings: &ShadowSettings) {
+        if let Some(counting) = counting(settings.technique) {
+            let places: Vec<_> = samples.iter().map(LightSample::place).collect();
+            self.volumes.prepare(gpu, subject, &places, counting, &settings.volumes);
+        }
+    }
+
     /// Adds one light sample where it is not in shadow.
-    #[expect(clippy::too_many_arguments, reason = "where to draw, what of it and how")]
     fn add_sample(
         &self,
-        gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         targets: &LightTargets,
         subject: Subject<'_>,
         settings: &ShadowSettings,
         lights: &LightUniforms,
-        index: usize,
+        (index, sample): (usize, &LightSample),
     ) {
-        let _ = (gpu, settings);
-        drop(direct_light::begin_stencil(encoder, targets));
+        // Shadows that the stencil tells.
+        let mut pass = direct_light::begin_stencil(encoder, targets);
+        pass.set_bind_group(0, subject.frame, &[]);
+        lights.bind(&mut pass, index);
+        if let Some(counting) = counting(settings.technique) {
+            self.volumes.draw(&mut pass, subject, sample.place(), counting, &settings.volumes);
+        }
+        drop(pass);
+        // Light where there are none.
         let mut pass = direct_light::begin(encoder, targets);
         pass.set_bind_group(0, subject.frame, &[]);
         lights.bind(&mut pass, index);
         self.unshadowed.draw(&mut pass, subject.scene, subject.look);
+    }
+}
+
+/// How a technique counts volumes, if it does.
+fn counting(technique: ShadowTechnique) -> Option<Counting> {
+    match technique {
+        ShadowTechnique::VolumeDepthPass => Some(Counting::DepthPass),
+        ShadowTechnique::VolumeDepthFail => Some(Counting::DepthFail),
+        _ => None,
     }
 }
 

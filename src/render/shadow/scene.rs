@@ -2,20 +2,34 @@
 
 use std::sync::Arc;
 
+use glam::Vec4;
+use wgpu::util::DeviceExt;
+
+use super::casters::Casters;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
 
 /// What shadows ask of a scene beyond its buffers.
 pub struct ShadowScene {
     scene: Arc<Scene>,
+    /// Triangles that throw shadows.
+    pub(super) casters: Casters,
+    /// Each corner of the casters twice: where it is, and to be moved to infinity.
+    pub(super) corners: wgpu::Buffer,
 }
 
 impl ShadowScene {
     /// Prepares a scene that has been uploaded, with the same triangles.
     #[must_use]
     pub fn new(gpu: &Gpu, scene: Arc<Scene>) -> Self {
-        let _ = gpu;
-        Self { scene }
+        let casters = Casters::new(&scene);
+        let corners: Vec<Vec4> = casters.positions.iter().flat_map(|p| [p.extend(0.0), p.extend(1.0)]).collect();
+        let corners = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("corners of casters"),
+            contents: bytemuck::cast_slice(&corners),
+            usage: wgpu::BufferUsages::VERTEX,
+        });
+        Self { scene, casters, corners }
     }
 
     /// The scene.
