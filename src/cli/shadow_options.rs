@@ -104,6 +104,8 @@ pub fn compare_shadows(
     let (compared, reference) = if is_truth_first { (&of_b, &of_a) } else { (&of_a, &of_b) };
     let difference = shadow_difference(compared, reference);
     save_display(output, size, &difference.picture(reference))?;
+    let num_pixels = difference.count.iter().filter(|&&count| count > 0).count();
+    println!("{num_pixels} of {} pixels differ", difference.count.len());
     println!("shadow difference: {:.3} %", 100.0 * difference.share);
     Ok(())
 }

@@ -49,6 +49,15 @@ pub const DIRECT_LIGHT: Shader = shader!(
 /// Counts shadow volumes in the stencil.
 pub const SHADOW_VOLUME: Shader =
     shader!("shadow volume", "shared/frame.wgsl", "shared/light_sample.wgsl", "shadow_volume.wgsl");
+/// Marks what lies behind casters with holes.
+pub const CUTOUT_SHADOW: Shader = shader!(
+    "cut-out shadow",
+    "shared/frame.wgsl",
+    "shared/material.wgsl",
+    "shared/visible_point.wgsl",
+    "shared/light_sample.wgsl",
+    "cutout_shadow.wgsl"
+);
 /// Places and normals of visible points.
 pub const VISIBLE_POINTS: Shader =
     shader!("visible points", "shared/frame.wgsl", "shared/visible_point.wgsl", "raytraced.wgsl");
@@ -82,6 +91,7 @@ pub const ALL: &[&Shader] = &[
     &DEPTH_PREPASS,
     &DIRECT_LIGHT,
     &SHADOW_VOLUME,
+    &CUTOUT_SHADOW,
     &VISIBLE_POINTS,
     &METER,
     &TONEMAP,

@@ -27,6 +27,7 @@ struct FrameUniform {
     num_groups: u32,
     num_vertices: u32,
     padding: u32,
+    eye: Vec4,
 }
 
 impl FrameUniform {
@@ -55,6 +56,7 @@ impl FrameUniform {
             num_groups: scene.num_groups() as u32,
             num_vertices: scene.num_vertices() as u32,
             padding: 0,
+            eye: view.eye(),
         }
     }
 }
@@ -121,7 +123,8 @@ mod tests {
             metal_as_diffuse,
             num_groups,
             num_vertices,
-            padding
+            padding,
+            eye
         ];
         assert_eq!(written, struct_layout(&SURFACE, "Frame"));
     }

@@ -1,7 +1,7 @@
 //! From where a picture is taken.
 
 use glam::camera::rh::proj::directx;
-use glam::{Mat4, Vec3};
+use glam::{Mat4, Vec3, Vec4};
 
 use crate::scene::{Camera, Projection};
 
@@ -51,11 +51,21 @@ impl View {
         self.projection_from_view.project_point3(Vec3::new(0.0, 0.0, -distance)).z
     }
 
-    /// From a point to the eye, metres; in an orthographic view, whose eye is infinitely far, one metre towards it.
+    /// Homogeneous eye: its position with w = 1, or in an orthographic view the unit vector towards it with w = 0.
+    #[must_use]
+    pub fn eye(&self) -> Vec4 {
+        let is_perspective = self.projection_from_view.w_axis.w == 0.0;
+        if is_perspective {
+            self.camera_position.extend(1.0)
+        } else {
+            self.view_from_world.row(2).truncate().extend(0.0)
+        }
+    }
+
+    /// From a point to the eye, metres; one metre towards it where it is infinitely far.
     #[must_use]
     pub fn towards_eye(&self, point: Vec3) -> Vec3 {
-        let is_perspective = self.projection_from_view.w_axis.w == 0.0;
-        if is_perspective { self.camera_position - point } else { self.view_from_world.row(2).truncate() }
+        self.eye().truncate() - self.eye().w * point
     }
 }
 

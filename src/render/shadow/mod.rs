@@ -13,6 +13,7 @@ pub mod scene;
 pub mod shadow_volume;
 pub mod silhouette;
 
+mod cutout_shadow;
 mod depth_prepass;
 mod direct_light;
 mod light_targets;

@@ -20,7 +20,7 @@ use crate::trace::Tracer;
 
 /// A ray begins this share of the way from its point to the eye: on the side that is seen, beyond rounding. What faces
 /// away from the light is then in its own shadow.
-const TOWARDS_EYE: f32 = 1e-4;
+const TOWARDS_EYE: f32 = 1e-5;
 
 /// A visible point.
 #[derive(Clone, Copy, Debug)]

@@ -1,5 +1,6 @@
 //! Direct light, light sample by light sample, in the shadows of one technique.
 
+use super::cutout_shadow::CutoutShadowPass;
 use super::depth_prepass::DepthPrepass;
 use super::direct_light::{self, DirectLightPass};
 use super::light_samples::{LightSample, light_samples};
@@ -36,6 +37,7 @@ pub struct RealTimeLight {
     prepass: DepthPrepass,
     unshadowed: DirectLightPass,
     volumes: ShadowVolumePass,
+    cutouts: CutoutShadowPass,
     raytraced: RaytracedLight,
     targets: Option<LightTargets>,
 }
@@ -51,6 +53,7 @@ impl RealTimeLight {
             prepass: DepthPrepass::new(gpu, frame_layout, samples),
             unshadowed: DirectLightPass::new(gpu, &layouts, &shaders::DIRECT_LIGHT, samples),
             volumes: ShadowVolumePass::new(gpu, frame_layout, &sample_layout, samples),
+            cutouts: CutoutShadowPass::new(gpu, frame_layout, &sample_layout, samples),
             raytraced: RaytracedLight::new(gpu, frame_layout),
             sample_layout,
             targets: None,
@@ -148,6 +151,7 @@ impl RealTimeLight {
         lights.bind(&mut pass, index);
         if let Some(counting) = counting(settings.technique) {
             self.volumes.draw(&mut pass, subject, sample.place(), counting, &settings.volumes);
+            self.cutouts.draw(&mut pass, subject);
         }
         drop(pass);
         // Light where there are none.

@@ -6,6 +6,7 @@ use glam::Vec4;
 use wgpu::util::DeviceExt;
 
 use super::casters::Casters;
+use super::cutout_shadow::Cutouts;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
 
@@ -16,6 +17,8 @@ pub struct ShadowScene {
     pub(super) casters: Casters,
     /// Each corner of the casters twice: where it is, and to be moved to infinity.
     pub(super) corners: wgpu::Buffer,
+    /// Casters with holes.
+    pub(super) cutouts: Vec<Cutouts>,
 }
 
 impl ShadowScene {
@@ -29,7 +32,7 @@ impl ShadowScene {
             contents: bytemuck::cast_slice(&corners),
             usage: wgpu::BufferUsages::VERTEX,
         });
-        Self { scene, casters, corners }
+        Self { cutouts: Cutouts::of_scene(gpu, &scene), scene, casters, corners }
     }
 
     /// The scene.
