@@ -18,11 +18,12 @@ const ON_EDGE: f32 = 2e-6;
 /// The triangles that throw shadows.
 #[derive(Clone, Debug, Default)]
 pub struct Casters {
-    /// Corners `[v]`, metres, each place once; then the middles of triangles that were cut.
+    /// Corners `[v]`, metres, each place once.
     pub positions: Vec<Vec3>,
     /// The triangles `[t]`.
     pub triangles: Vec<Caster>,
-    /// Parts of triangles, as corners; a triangle without T-junctions is one part.
+    /// Parts of triangles, as corners: the triangle itself, and where corners lie on its edges the slivers between.
+    /// These close the volume whatever rounding makes of them, and the triangle keeps its depth to the last bit.
     pub parts: Vec<[u32; 3]>,
     /// The edges `[e]` of the triangles, each once.
     pub edges: Vec<Edge>,
@@ -128,17 +129,27 @@ impl Casters {
         found.into_iter().map(|(_, corner)| corner).collect()
     }
 
-    /// Cuts the triangles into parts and gathers the edges.
+    /// Cuts the edges of the triangles, fills what opens between, and gathers the edges.
     fn join(&mut self, cuts: &HashMap<[u32; 2], Vec<u32>>) {
         let mut sides: Vec<([u32; 2], Side)> = Vec::new();
+        let mut add_side = |triangle: usize, ends: [u32; 2]| {
+            let direction = if ends[0] < ends[1] { 1 } else { -1 };
+            sides.push((sorted(ends), Side { triangle: triangle as u32, direction }));
+        };
         for t in 0..self.triangles.len() {
-            let outline = outline(&self.triangles[t].corners, cuts);
-            for i in 0..outline.len() {
-                let ends = [outline[i], outline[(i + 1) % outline.len()]];
-                let direction = if ends[0] < ends[1] { 1 } else { -1 };
-                sides.push((sorted(ends), Side { triangle: t as u32, direction }));
+            let first = self.parts.len() as u32;
+            let corners = self.triangles[t].corners;
+            self.parts.push(corners);
+            for [from, to] in edges_of(&corners) {
+                let mut last = from;
+                for corner in corners_between(from, to, cuts) {
+                    add_side(t, [last, corner]);
+                    self.parts.push([last, corner, to]);
+                    last = corner;
+                }
+                add_side(t, [last, to]);
             }
-            self.triangles[t].parts = self.cut(&outline);
+            self.triangles[t].parts = first..self.parts.len() as u32;
         }
         sides.sort_unstable_by_key(|(ends, side)| (*ends, side.triangle));
         for same in sides.chunk_by(|a, b| a.0 == b.0) {
@@ -146,21 +157,6 @@ impl Casters {
             self.sides.extend(same.iter().map(|(_, side)| *side));
             self.edges.push(Edge { ends: same[0].0, sides: first..self.sides.len() as u32 });
         }
-    }
-
-    /// Cuts a triangle whose outline has more than three corners into a fan round its middle.
-    fn cut(&mut self, outline: &[u32]) -> std::ops::Range<u32> {
-        let first = self.parts.len() as u32;
-        if let &[a, b, c] = outline {
-            self.parts.push([a, b, c]);
-        } else {
-            let sum: Vec3 = outline.iter().map(|&corner| self.at(corner)).sum();
-            let middle = self.positions.len() as u32;
-            self.positions.push(sum / outline.len() as f32);
-            let next = outline.iter().cycle().skip(1);
-            self.parts.extend(outline.iter().zip(next).map(|(&corner, &next)| [middle, corner, next]));
-        }
-        first..self.parts.len() as u32
     }
 
     fn at(&self, corner: u32) -> Vec3 {
@@ -174,18 +170,13 @@ impl Casters {
     }
 }
 
-/// Corners of a triangle and those that lie on its edges, all round.
-fn outline(corners: &[u32; 3], cuts: &HashMap<[u32; 2], Vec<u32>>) -> Vec<u32> {
-    let mut outline = Vec::with_capacity(3);
-    for [from, to] in edges_of(corners) {
-        outline.push(from);
-        match cuts.get(&sorted([from, to])) {
-            Some(on_edge) if from < to => outline.extend(on_edge),
-            Some(on_edge) => outline.extend(on_edge.iter().rev()),
-            None => {}
-        }
+/// Corners that lie on an edge, on the way from one end to the other.
+fn corners_between(from: u32, to: u32, cuts: &HashMap<[u32; 2], Vec<u32>>) -> Vec<u32> {
+    let mut corners = cuts.get(&sorted([from, to])).cloned().unwrap_or_default();
+    if from > to {
+        corners.reverse();
     }
-    outline
+    corners
 }
 
 fn edges_of(&[a, b, c]: &[u32; 3]) -> [[u32; 2]; 3] {

@@ -11,6 +11,7 @@
 //! Source: Heidmann 1991; Everitt, Kilgard 2002; Hornus et al. 2005 (ZP+, the idea of the cure).
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use glam::{Vec3, Vec4};
 use wgpu::util::DeviceExt;
@@ -19,13 +20,8 @@ use super::casters::{Caster, Casters};
 use super::light_targets::depth_stencil_format;
 use super::near_plane::NearPlane;
 use super::real_time::Subject;
-use super::silhouette::{Counting, Hull, facing, hull};
+use super::silhouette::{Counting, Hull, facing, hull, hull_triangle_by_triangle};
 use crate::gpu::{Gpu, shaders};
-
-/// Caps are drawn this much behind their triangles, in units of the last place of the depth and of its slope: where a
-/// triangle had to be cut, its parts do not have its depth to the last bit.
-const CAP_BIAS: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: -8, slope_scale: -1e-3, clamp: 0.0 };
-const NO_BIAS: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: 0, slope_scale: 0.0, clamp: 0.0 };
 
 /// How shadow volumes are counted, and what is done about it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,11 +30,14 @@ pub struct VolumeSettings {
     pub near_plane_cure: bool,
     /// Distance of a far plane that cuts volumes off, metres; none is the cure.
     pub far_plane: Option<f32>,
+    /// Triangles share one volume where they meet; off gives each its own, which is slow and tells whether joining is
+    /// right. Depth-fail only.
+    pub joined: bool,
 }
 
 impl Default for VolumeSettings {
     fn default() -> Self {
-        Self { near_plane_cure: true, far_plane: None }
+        Self { near_plane_cure: true, far_plane: None, joined: true }
     }
 }
 
@@ -53,10 +52,9 @@ pub struct ShadowVolumePass {
 }
 
 struct Pipelines {
-    pass: wgpu::RenderPipeline,
-    pass_caps: [wgpu::RenderPipeline; 2],
-    fail: wgpu::RenderPipeline,
-    fail_caps: [wgpu::RenderPipeline; 2],
+    /// For triangles that are counter-clockwise seen from outside, and for those that are clockwise.
+    pass: [wgpu::RenderPipeline; 2],
+    fail: [wgpu::RenderPipeline; 2],
 }
 
 /// What the volumes of a light depend on: its place, and the near plane where that matters.
@@ -65,6 +63,7 @@ struct HullKey {
     place: [u32; 4],
     near_plane: Option<[u32; 16]>,
     is_depth_pass: bool,
+    is_joined: bool,
 }
 
 /// The volumes of one light on the device, those counted each way apart.
@@ -76,9 +75,10 @@ struct HullBuffers {
 /// A [`Hull`] in one index buffer.
 struct Indices {
     buffer: wgpu::Buffer,
-    walls: std::ops::Range<u32>,
-    facing_caps: std::ops::Range<u32>,
-    averted_caps: std::ops::Range<u32>,
+    /// Walls and facing caps.
+    counter_clockwise: Range<u32>,
+    /// Averted caps.
+    clockwise: Range<u32>,
 }
 
 impl ShadowVolumePass {
@@ -129,8 +129,8 @@ impl ShadowVolumePass {
             _ => &self.pipelines,
         };
         pass.set_vertex_buffer(0, subject.shadows.corners.slice(..));
-        hulls.fail.draw(pass, &pipelines.fail, &pipelines.fail_caps);
-        hulls.pass.draw(pass, &pipelines.pass, &pipelines.pass_caps);
+        hulls.fail.draw(pass, &pipelines.fail);
+        hulls.pass.draw(pass, &pipelines.pass);
     }
 }
 
@@ -139,7 +139,7 @@ impl HullKey {
         let is_depth_pass = counting == Counting::DepthPass;
         let matrix = subject.view.projection_from_world().to_cols_array().map(f32::to_bits);
         let near_plane = (is_depth_pass && settings.near_plane_cure).then_some(matrix);
-        Self { place: place.to_array().map(f32::to_bits), near_plane, is_depth_pass }
+        Self { place: place.to_array().map(f32::to_bits), near_plane, is_depth_pass, is_joined: settings.joined }
     }
 }
 
@@ -148,6 +148,7 @@ fn volumes(gpu: &Gpu, subject: Subject<'_>, place: Vec4, counting: Counting, set
     let casters = &subject.shadows.casters;
     let facing = facing(casters, place);
     let (pass, fail) = match (counting, settings.near_plane_cure) {
+        (Counting::DepthFail, _) if !settings.joined => (Hull::default(), hull_triangle_by_triangle(casters, &facing, place)),
         (Counting::DepthFail, _) => (Hull::default(), hull(casters, &facing, place, Counting::DepthFail)),
         (Counting::DepthPass, false) => (hull(casters, &facing, place, Counting::DepthPass), Hull::default()),
         (Counting::DepthPass, true) => cured(subject, casters, &facing, place),
@@ -183,24 +184,20 @@ fn is_seen_from_behind(subject: Subject<'_>, casters: &Casters, triangle: &Caste
 impl Indices {
     fn new(gpu: &Gpu, hull: &Hull) -> Self {
         let Hull { walls, facing_caps, averted_caps } = hull;
-        let facing_at = walls.len() as u32;
-        let averted_at = facing_at + facing_caps.len() as u32;
-        let end = averted_at + averted_caps.len() as u32;
+        let middle = (walls.len() + facing_caps.len()) as u32;
+        let end = middle + averted_caps.len() as u32;
         let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("shadow volumes"),
             contents: bytemuck::cast_slice(&[walls.as_slice(), facing_caps, averted_caps].concat()),
             usage: wgpu::BufferUsages::INDEX,
         });
-        Self { buffer, walls: 0..facing_at, facing_caps: facing_at..averted_at, averted_caps: averted_at..end }
+        Self { buffer, counter_clockwise: 0..middle, clockwise: middle..end }
     }
 
-    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, walls: &wgpu::RenderPipeline, caps: &[wgpu::RenderPipeline; 2]) {
-        if self.averted_caps.end == 0 {
-            return;
-        }
-        pass.set_index_buffer(self.buffer.slice(..), wgpu::IndexFormat::Uint32);
-        let parts = [(walls, &self.walls), (&caps[0], &self.facing_caps), (&caps[1], &self.averted_caps)];
-        for (pipeline, indices) in parts.into_iter().filter(|(_, indices)| !indices.is_empty()) {
+    fn draw(&self, pass: &mut wgpu::RenderPass<'_>, pipelines: &[wgpu::RenderPipeline; 2]) {
+        let parts = pipelines.iter().zip([&self.counter_clockwise, &self.clockwise]);
+        for (pipeline, indices) in parts.filter(|(_, indices)| !indices.is_empty()) {
+            pass.set_index_buffer(self.buffer.slice(..), wgpu::IndexFormat::Uint32);
             pass.set_pipeline(pipeline);
             pass.draw_indexed(indices.clone(), 0, 0..1);
         }
@@ -215,14 +212,9 @@ impl Pipelines {
         samples: u32,
         far_depth: Option<f32>,
     ) -> Self {
-        let make = |counting, front_face, bias| pipeline(gpu, layout, module, samples, far_depth, counting, front_face, bias);
-        let caps = |counting| [wgpu::FrontFace::Ccw, wgpu::FrontFace::Cw].map(|front| make(counting, front, CAP_BIAS));
-        Self {
-            pass: make(Counting::DepthPass, wgpu::FrontFace::Ccw, NO_BIAS),
-            pass_caps: caps(Counting::DepthPass),
-            fail: make(Counting::DepthFail, wgpu::FrontFace::Ccw, NO_BIAS),
-            fail_caps: caps(Counting::DepthFail),
-        }
+        let make = |counting, front_face| pipeline(gpu, layout, module, samples, far_depth, counting, front_face);
+        let both = |counting| [wgpu::FrontFace::Ccw, wgpu::FrontFace::Cw].map(|front| make(counting, front));
+        Self { pass: both(Counting::DepthPass), fail: both(Counting::DepthFail) }
     }
 }
 
@@ -242,7 +234,6 @@ fn stencil(counting: Counting) -> wgpu::StencilState {
     wgpu::StencilState { front, back, read_mask: !0, write_mask: !0 }
 }
 
-#[expect(clippy::too_many_arguments, reason = "what all volume pipelines share, and in what they differ")]
 fn pipeline(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,
@@ -251,7 +242,6 @@ fn pipeline(
     far_depth: Option<f32>,
     counting: Counting,
     front_face: wgpu::FrontFace,
-    bias: wgpu::DepthBiasState,
 ) -> wgpu::RenderPipeline {
     let constants = [("FAR_DEPTH", f64::from(far_depth.unwrap_or(0.0)))];
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
@@ -273,7 +263,7 @@ fn pipeline(
             depth_write_enabled: Some(false),
             depth_compare: Some(wgpu::CompareFunction::Greater),
             stencil: stencil(counting),
-            bias,
+            bias: Default::default(),
         }),
         multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
         fragment: far_depth.map(|_| wgpu::FragmentState {
