@@ -58,6 +58,19 @@ pub const CUTOUT_SHADOW: Shader = shader!(
     "shared/light_sample.wgsl",
     "cutout_shadow.wgsl"
 );
+/// Depth as a light sees it.
+pub const SHADOW_MAP: Shader = shader!("shadow map", "shared/frame.wgsl", "shared/material.wgsl", "shadow_map.wgsl");
+/// Direct light of one sample where its shadow map sees the point.
+pub const DIRECT_LIGHT_MAP: Shader = shader!(
+    "direct light, map",
+    "shared/frame.wgsl",
+    "shared/visible_point.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/visibility_map.wgsl",
+    "direct_light.wgsl"
+);
+/// Receivers, and casters flattened on to them.
+pub const PLANAR_SHADOW: Shader = shader!("planar shadow", "shared/frame.wgsl", "planar_shadow.wgsl");
 /// Places and normals of visible points.
 pub const VISIBLE_POINTS: Shader =
     shader!("visible points", "shared/frame.wgsl", "shared/visible_point.wgsl", "raytraced.wgsl");
@@ -92,6 +105,9 @@ pub const ALL: &[&Shader] = &[
     &DIRECT_LIGHT,
     &SHADOW_VOLUME,
     &CUTOUT_SHADOW,
+    &SHADOW_MAP,
+    &DIRECT_LIGHT_MAP,
+    &PLANAR_SHADOW,
     &VISIBLE_POINTS,
     &METER,
     &TONEMAP,

@@ -5,7 +5,7 @@
 
 use glam::Vec3;
 
-use super::real_time::{RealTimeLight, Subject};
+use super::real_time::{RealTimeLight, SampleDecisions, Subject};
 use super::{ShadowScene, ShadowSettings};
 use crate::gpu::{Gpu, GpuError, SceneBuffers};
 use crate::render::frame_uniform::{frame_bind_group, frame_layout};
@@ -16,8 +16,8 @@ use crate::render::{Look, View};
 pub struct Decisions {
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// `[light sample][pixel]`.
-    pub lit: Vec<Vec<bool>>,
+    /// Of each light sample.
+    pub samples: Vec<SampleDecisions>,
 }
 
 /// How far one technique is from another.
@@ -50,14 +50,13 @@ impl Decisions {
         let layout = frame_layout(gpu);
         let frame = frame_bind_group(gpu, &layout, scene, view, &look);
         let subject = Subject { frame: &frame, scene, shadows, view, look: &look };
-        let lit = RealTimeLight::new(gpu, &layout, 1).decisions(gpu, size, subject, settings)?;
-        Ok(Self { size, lit })
+        let samples = RealTimeLight::new(gpu, &layout, 1).decisions(gpu, size, subject, settings)?;
+        Ok(Self { size, samples })
     }
 
     /// Pixels next to one with the other decision about a light sample.
-    fn edges(&self, sample: usize) -> Vec<bool> {
+    fn edges(&self, lit: &[bool]) -> Vec<bool> {
         let [width, height] = self.size.map(|side| side as usize);
-        let lit = &self.lit[sample];
         let is_edge = |at: usize| {
             let (x, y) = (at % width, at / width);
             let columns = x.saturating_sub(1)..=(x + 1).min(width - 1);
@@ -68,16 +67,23 @@ impl Decisions {
     }
 }
 
+impl SampleDecisions {
+    fn claims(&self, pixel: usize) -> bool {
+        self.claimed.as_ref().is_none_or(|claimed| claimed[pixel])
+    }
+}
+
 /// How far `decisions` are from `reference`.
 #[must_use]
 pub fn shadow_difference(decisions: &Decisions, reference: &Decisions) -> ShadowDifference {
     let num_pixels = (reference.size[0] * reference.size[1]) as usize;
     let (mut count, mut is_too_bright) = (vec![0; num_pixels], vec![false; num_pixels]);
-    for (sample, (lit, reference_lit)) in decisions.lit.iter().zip(&reference.lit).enumerate() {
-        let edges = reference.edges(sample);
-        for pixel in (0..num_pixels).filter(|&pixel| lit[pixel] != reference_lit[pixel] && !edges[pixel]) {
+    for (ours, theirs) in decisions.samples.iter().zip(&reference.samples) {
+        let edges = reference.edges(&theirs.lit);
+        let differs = |&pixel: &usize| ours.lit[pixel] != theirs.lit[pixel] && ours.claims(pixel) && theirs.claims(pixel);
+        for pixel in (0..num_pixels).filter(differs).filter(|&pixel| !edges[pixel]) {
             count[pixel] += 1;
-            is_too_bright[pixel] = lit[pixel];
+            is_too_bright[pixel] = ours.lit[pixel];
         }
     }
     let share = count.iter().filter(|&&count| count > 0).count() as f32 / num_pixels.max(1) as f32;
@@ -89,12 +95,12 @@ impl ShadowDifference {
     /// much light is seen, blue where too little.
     #[must_use]
     pub fn picture(&self, reference: &Decisions) -> Vec<Vec3> {
-        let num_samples = reference.lit.len().max(1) as f32;
+        let num_samples = reference.samples.len().max(1) as f32;
         let colour = |pixel: usize| match (self.count[pixel] > 0, self.is_too_bright[pixel]) {
             (true, true) => Vec3::new(1.0, 0.1, 0.0),
             (true, false) => Vec3::new(0.0, 0.3, 1.0),
             (false, _) => {
-                let seen = reference.lit.iter().filter(|lit| lit[pixel]).count() as f32;
+                let seen = reference.samples.iter().filter(|sample| sample.lit[pixel]).count() as f32;
                 Vec3::splat(0.02 + 0.4 * seen / num_samples)
             }
         };
@@ -108,7 +114,8 @@ mod tests {
 
     /// One light over 8 x 8 pixels.
     fn decisions(lit: impl Fn(usize, usize) -> bool) -> Decisions {
-        Decisions { size: [8, 8], lit: vec![(0..64).map(|i| lit(i % 8, i / 8)).collect()] }
+        let lit = (0..64).map(|i| lit(i % 8, i / 8)).collect();
+        Decisions { size: [8, 8], samples: vec![SampleDecisions { lit, claimed: None }] }
     }
 
     #[test]

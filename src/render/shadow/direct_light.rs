@@ -6,32 +6,31 @@ use crate::gpu::scene_buffers::GpuVertex;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 use crate::render::Look;
 
-/// Light adds up.
-const SUM: wgpu::BlendState = wgpu::BlendState {
-    color: wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Add,
-    },
-    alpha: wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Add,
-    },
-};
+/// Which stencil values are lit, and how.
+#[derive(Clone, Copy, Debug)]
+pub struct Lit {
+    /// Bits of the stencil that are looked at.
+    pub read_mask: u32,
+    /// How they compare with `reference`.
+    pub compare: wgpu::CompareFunction,
+    /// What they are compared with.
+    pub reference: u32,
+    /// Light is added, or taken away again.
+    pub operation: wgpu::BlendOperation,
+}
 
-/// Only where no shadow is counted; and what is lit once is marked, so that a surface in the same place twice is not
-/// lit twice.
-const WHERE_UNSHADOWED: wgpu::StencilFaceState = wgpu::StencilFaceState {
+/// Light is added where no shadow is counted.
+pub const WHERE_UNSHADOWED: Lit = Lit {
+    read_mask: !0,
     compare: wgpu::CompareFunction::Equal,
-    fail_op: wgpu::StencilOperation::Keep,
-    depth_fail_op: wgpu::StencilOperation::Keep,
-    pass_op: wgpu::StencilOperation::IncrementClamp,
+    reference: 0,
+    operation: wgpu::BlendOperation::Add,
 };
 
 /// Direct light pass.
 pub struct DirectLightPass {
     pipelines: SolidPipelines,
+    reference: u32,
 }
 
 impl DirectLightPass {
@@ -41,6 +40,7 @@ impl DirectLightPass {
         layouts: &[Option<&wgpu::BindGroupLayout>],
         shader: &shaders::Shader,
         samples: u32,
+        lit: &Lit,
     ) -> Self {
         let module = shader.module(&gpu.device);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -48,12 +48,13 @@ impl DirectLightPass {
             bind_group_layouts: layouts,
             immediate_size: 0,
         });
-        Self { pipelines: SolidPipelines::new(|cull| pipeline(gpu, &layout, &module, samples, cull)) }
+        let pipelines = SolidPipelines::new(|cull| pipeline(gpu, &layout, &module, samples, lit, cull));
+        Self { pipelines, reference: lit.reference }
     }
 
     /// Draws within a pass that [`begin`] has begun and to which all bind groups are set.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneBuffers, look: &Look) {
-        pass.set_stencil_reference(0);
+        pass.set_stencil_reference(self.reference);
         self.pipelines.draw(pass, scene, look);
     }
 }
@@ -109,8 +110,21 @@ fn pipeline(
     layout: &wgpu::PipelineLayout,
     module: &wgpu::ShaderModule,
     samples: u32,
+    lit: &Lit,
     cull_mode: Option<wgpu::Face>,
 ) -> wgpu::RenderPipeline {
+    // What is lit once is marked, so that a surface in the same place twice is not lit twice.
+    let face = wgpu::StencilFaceState {
+        compare: lit.compare,
+        fail_op: wgpu::StencilOperation::Keep,
+        depth_fail_op: wgpu::StencilOperation::Keep,
+        pass_op: wgpu::StencilOperation::IncrementClamp,
+    };
+    let sum = wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: lit.operation,
+    };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some("direct light"),
         layout: Some(layout),
@@ -125,12 +139,7 @@ fn pipeline(
             format: depth_stencil_format(gpu),
             depth_write_enabled: Some(false),
             depth_compare: Some(wgpu::CompareFunction::Equal),
-            stencil: wgpu::StencilState {
-                front: WHERE_UNSHADOWED,
-                back: WHERE_UNSHADOWED,
-                read_mask: !0,
-                write_mask: !0,
-            },
+            stencil: wgpu::StencilState { front: face, back: face, read_mask: lit.read_mask, write_mask: !0 },
             bias: Default::default(),
         }),
         multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
@@ -140,7 +149,7 @@ fn pipeline(
             compilation_options: Default::default(),
             targets: &[Some(wgpu::ColorTargetState {
                 format: irradiance_format(gpu, samples),
-                blend: Some(SUM),
+                blend: Some(wgpu::BlendState { color: sum, alpha: sum }),
                 write_mask: wgpu::ColorWrites::ALL,
             })],
         }),

@@ -8,8 +8,10 @@
 pub mod casters;
 pub mod difference;
 pub mod light_samples;
+pub mod planar_shadow;
 pub mod real_time;
 pub mod scene;
+pub mod shadow_map;
 pub mod shadow_volume;
 pub mod silhouette;
 
@@ -24,8 +26,10 @@ mod solid;
 
 pub use difference::{Decisions, ShadowDifference, shadow_difference};
 pub use light_samples::{LightSample, light_samples};
+pub use planar_shadow::PlanarSettings;
 pub use real_time::RealTimeLight;
 pub use scene::ShadowScene;
+pub use shadow_map::MapSettings;
 pub use shadow_volume::VolumeSettings;
 
 /// How shadows are found.
@@ -52,6 +56,10 @@ pub struct ShadowSettings {
     pub technique: ShadowTechnique,
     /// Points on each emissive surface, 1 to 256; each throws one hard shadow.
     pub light_samples: u32,
+    /// Of planar shadows.
+    pub planar: PlanarSettings,
+    /// Of shadow maps.
+    pub maps: MapSettings,
     /// Of shadow volumes.
     pub volumes: VolumeSettings,
 }
@@ -60,6 +68,12 @@ impl ShadowSettings {
     /// `technique` with the settings that show none of its faults.
     #[must_use]
     pub fn new(technique: ShadowTechnique) -> Self {
-        Self { technique, light_samples: 1, volumes: VolumeSettings::default() }
+        Self {
+            technique,
+            light_samples: 1,
+            planar: PlanarSettings::default(),
+            maps: MapSettings::default(),
+            volumes: VolumeSettings::default(),
+        }
     }
 }

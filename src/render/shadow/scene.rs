@@ -15,7 +15,7 @@ pub struct ShadowScene {
     scene: Arc<Scene>,
     /// Triangles that throw shadows.
     pub(super) casters: Casters,
-    /// Each corner of the casters twice: where it is, and to be moved to infinity.
+    /// Each corner of the casters three times, as `silhouette::Hull` counts them.
     pub(super) corners: wgpu::Buffer,
     /// Casters with holes.
     pub(super) cutouts: Vec<Cutouts>,
@@ -26,7 +26,7 @@ impl ShadowScene {
     #[must_use]
     pub fn new(gpu: &Gpu, scene: Arc<Scene>) -> Self {
         let casters = Casters::new(&scene);
-        let corners: Vec<Vec4> = casters.positions.iter().flat_map(|p| [p.extend(0.0), p.extend(1.0)]).collect();
+        let corners: Vec<Vec4> = casters.positions.iter().flat_map(|p| [0.0, 1.0, 2.0].map(|w| p.extend(w))).collect();
         let corners = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("corners of casters"),
             contents: bytemuck::cast_slice(&corners),

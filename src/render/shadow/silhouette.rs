@@ -21,8 +21,8 @@ pub enum Counting {
     DepthFail,
 }
 
-/// The shadow volumes of one light, as triangles. An index is twice the corner, plus one where it is infinitely far from
-/// the light; all triangles are counter-clockwise seen from outside of the volume, but for `averted_caps`.
+/// The shadow volumes of one light, as triangles. An index is three times the corner, plus 0 where it is in its
+/// place, 1 where it is infinitely far from the light, 2 where it is a hair deeper; all triangles are counter-clockwise seen from outside of the volume, but for `averted_caps`.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hull {
     /// Sides, and for depth-fail the caps at infinity.
@@ -88,7 +88,9 @@ impl Hull {
     /// Closes the volume of a triangle towards the light.
     pub fn add_light_caps(&mut self, casters: &Casters, triangle: &Caster, facing: i32) {
         let caps = if facing > 0 { &mut self.facing_caps } else { &mut self.averted_caps };
-        caps.extend(parts(casters, triangle).iter().flatten().map(|&corner| near(corner)));
+        let (whole, slivers) = parts(casters, triangle).split_first().expect("a triangle is its own first part");
+        caps.extend(whole.iter().map(|&corner| near(corner)));
+        caps.extend(slivers.iter().flatten().map(|&corner| behind(corner)));
     }
 }
 
@@ -116,10 +118,18 @@ fn parts<'a>(casters: &'a Casters, triangle: &Caster) -> &'a [[u32; 3]] {
     &casters.parts[triangle.parts.start as usize..triangle.parts.end as usize]
 }
 
+/// Where the corner is.
 fn near(corner: u32) -> u32 {
-    2 * corner
+    3 * corner
 }
 
+/// Where the light would throw its shadow at infinity.
 fn far(corner: u32) -> u32 {
-    2 * corner + 1
+    3 * corner + 1
+}
+
+/// In the same place of the picture a hair deeper: slivers have no depth of their own to trust, and must not hide behind
+/// the triangles between which they lie.
+fn behind(corner: u32) -> u32 {
+    3 * corner + 2
 }
