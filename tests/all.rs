@@ -11,3 +11,4 @@ mod meshing;
 mod pictures;
 mod radiosity;
 mod render_command;
+mod shadows;

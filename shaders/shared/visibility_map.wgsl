@@ -19,14 +19,19 @@ struct ShadowMap {
 @group(2) @binding(1) var map_depth: texture_depth_2d_array;
 @group(2) @binding(2) var map_sampler: sampler_comparison;
 
-fn visibility(in: VisiblePoint, normal: vec3f) -> f32 {
-    let offset = light.place.xyz - light.place.w * in.point;
+fn visibility(point: vec3f, facet: vec3f) -> f32 {
+    let offset = light.place.xyz - light.place.w * point;
+    let to_light = normalize(offset);
+    let cosine = dot(facet, to_light);
+    // A smooth normal may see light that the triangle itself turns its back on.
+    if cosine <= 0.0 {
+        return 0.0;
+    }
     let axis_distance = max(abs(offset.x), max(abs(offset.y), abs(offset.z)));
     let texel = shadow_map.texel * select(1.0, axis_distance, light.place.w > 0.0);
     // Away from the surface, the more the flatter the light falls on it, and towards the light.
-    let to_light = normalize(offset);
-    let slope = sqrt(saturate(1.0 - pow(dot(normal, to_light), 2.0)));
-    let shifted = in.point + texel * (shadow_map.normal_offset * slope * normal + shadow_map.slope_bias * to_light);
+    let slope = sqrt(saturate(1.0 - cosine * cosine));
+    let shifted = point + texel * (shadow_map.normal_offset * slope * facet + shadow_map.slope_bias * to_light);
     let face = select(0u, cube_face(shifted - light.place.xyz), shadow_map.num_faces == 6u);
     let clip = shadow_map.projection_from_world[face] * vec4f(shifted, 1.0);
     let ndc = clip.xyz / clip.w;
