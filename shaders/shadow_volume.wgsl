@@ -5,6 +5,7 @@
 
 const INFINITELY_FAR: f32 = 1.0;
 const A_HAIR_DEEPER: f32 = 2.0;
+const SHORTEST: f32 = 1e-30;
 // Share of the depth.
 const HAIR: f32 = 1e-5;
 
@@ -16,7 +17,9 @@ struct Corner {
 @vertex
 fn vertex(in: Corner) -> @builtin(position) @invariant vec4f {
     if in.position.w == INFINITELY_FAR {
-        return frame.projection_from_world * vec4f(in.position.xyz * light.place.w - light.place.xyz, 0.0);
+        let away = in.position.xyz * light.place.w - light.place.xyz;
+        // Of length one: clipping between corners of very different sizes is not exact.
+        return frame.projection_from_world * vec4f(away / max(length(away), SHORTEST), 0.0);
     }
     let place = frame.projection_from_world * vec4f(in.position.xyz, 1.0);
     return vec4f(place.xy, select(place.z, place.z * (1.0 - HAIR), in.position.w == A_HAIR_DEEPER), place.w);

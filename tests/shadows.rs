@@ -253,7 +253,8 @@ fn case_05_the_light_is_in_a_closed_room() {
 #[test]
 fn case_06_the_light_is_inside_a_caster() {
     let mut stage = Stage::new();
-    stage.cube(at(0.7, 4.0, 0.4), 1);
+    // It is open to one side.
+    stage.cube(at(0.7, 4.0, 0.4) * Mat4::from_quat(Quat::from_rotation_z(2.2)), 1);
     stage.assert_volumes_are_exact();
 }
 
@@ -348,14 +349,16 @@ fn case_16_corners_in_the_middle_of_edges() {
     let (u, v) = (Vec3::new(1.3, 0.17, 0.29), Vec3::new(-0.23, 0.31, -1.1));
     let origin = Vec3::new(-1.0, 1.7, 0.6);
     stage.quad(origin, u, v);
+    let near: Vec<Vec3> = (0..=7).map(|i| origin + u + v * (i as f32 / 7.0)).collect();
+    let far: Vec<Vec3> = near.iter().map(|&corner| corner + u).collect();
     for i in 0..7 {
-        stage.quad(origin + u + v * (i as f32 / 7.0), u, v / 7.0);
+        stage.triangle([near[i], far[i], far[i + 1]], 0).triangle([near[i], far[i + 1], near[i + 1]], 0);
     }
     stage.assert_volumes_are_exact();
     let casters = Casters::new(&stage.scene);
     let place = Vec4::new(0.7, 4.0, 0.4, 1.0);
     let sides = hull(&casters, &facing(&casters, place), place, Counting::DepthPass).walls.len() / 6;
-    assert_eq!(sides, 4 + 2 + 14 + 2, "sides of the floor and of the outline");
+    assert_eq!(sides, 4 + 3 + 7 + 2, "sides of the floor and of the outline");
 }
 
 #[test]
@@ -407,6 +410,7 @@ fn case_21_planar_shadows_show_each_fault_when_its_cure_is_off() {
     // One box through the floor, one over another, one whose shadow would stick out, one below the floor.
     stage.cube(at(-1.5, 0.2, 0.0), 0).cube(at(0.5, 1.0, 0.0), 0).cube(at(0.6, 2.2, 0.1), 0).cube(at(3.6, 1.0, -1.0), 0);
     stage.cube(at(1.0, -1.5, 2.5), 0);
+    stage.quad(Vec3::new(4.0, -1.5, 4.0), 6.0 * Vec3::X, -8.0 * Vec3::Z);
     let shot = stage.shot(gpu);
     let mut planar = settings(ShadowTechnique::Planar);
     planar.planar.num_receivers = 1;
@@ -458,7 +462,7 @@ fn case_22_maps_are_right_within_their_resolution_and_show_acne_without_bias() {
         assert!(share <= 0.005, "{kind:?}: {share}");
         (map.maps.normal_offset, map.maps.slope_bias, map.maps.pcf_radius) = (0.0, 0.0, 0);
         let share = shot.fault(gpu, &map);
-        assert!(share > 0.02, "{kind:?} without bias: {share}");
+        assert!(share > 0.01, "{kind:?} without bias: {share}");
     }
 }
 

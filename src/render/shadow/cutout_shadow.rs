@@ -10,6 +10,7 @@ use glam::{Vec2, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
 use super::light_targets::depth_stencil_format;
+use super::planar_shadow::SHADOWS;
 use super::real_time::Subject;
 use super::solid::SolidPipelines;
 use crate::base::ids::{MaterialId, TriangleId};
@@ -20,7 +21,7 @@ use crate::scene::{AlphaMode, Scene};
 
 /// Triangles of one material that a point can ask.
 pub const MAX_TRIANGLES: usize = 512;
-/// What the stencil of a point in shadow holds.
+/// What the stencil of a point in shadow holds, in those of its bits that count planar shadows too.
 const SHADOWED: u32 = 1;
 /// Alpha from which on a surface that blends counts as solid, as for rays.
 const HALF_OPAQUE: f32 = 0.5;
@@ -163,7 +164,7 @@ fn pipeline(
             format: depth_stencil_format(gpu),
             depth_write_enabled: Some(false),
             depth_compare: Some(wgpu::CompareFunction::Equal),
-            stencil: wgpu::StencilState { front: MARK, back: MARK, read_mask: !0, write_mask: !0 },
+            stencil: wgpu::StencilState { front: MARK, back: MARK, read_mask: !0, write_mask: SHADOWS },
             bias: Default::default(),
         }),
         multisample: wgpu::MultisampleState { count: samples, ..Default::default() },

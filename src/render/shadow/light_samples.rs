@@ -4,7 +4,7 @@
 //! its normal with the surface's exitance times its share of the area, so that their sum tends to the irradiance that
 //! the bake finds in closed form.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use glam::{Vec2, Vec3, Vec4};
 
@@ -12,7 +12,7 @@ use crate::base::ids::{GroupId, TriangleId};
 use crate::base::sampling::triangle_from_square;
 use crate::scene::{Light, LightKind, Scene, area_of, normal_of};
 
-/// Triangles of one surface closer than this share of the scene's extent shine as one lamp, as in the bake.
+/// Pieces of one surface closer than this share of the scene's extent shine as one lamp, as in the bake.
 const PLACE_SHARE: f32 = 0.1;
 /// Height of a sample above its surface, as a share of the scene's extent: the surface must not shade itself.
 const HEIGHT: f32 = 2e-5;
@@ -83,33 +83,67 @@ struct Surface {
 fn surfaces(scene: &Scene) -> Vec<Surface> {
     let (low, high) = scene.bounds();
     let place_size = PLACE_SHARE * (high - low).max_element().max(f32::MIN_POSITIVE);
-    let mut by_place: BTreeMap<_, Surface> = BTreeMap::new();
     let has_backs = scene.triangles.iter().any(|triangle| triangle.is_back_side);
-    for (t, triangle) in scene.triangles.iter().enumerate() {
+    let mut by_place: BTreeMap<_, Surface> = BTreeMap::new();
+    for piece in pieces(scene) {
+        let triangle = &scene.triangles[piece[0].index()];
         let material = &scene.materials[triangle.material.index()];
-        let Some(group) = material.group.filter(|_| material.is_emissive()) else { continue };
-        let id = TriangleId::new(t);
-        let [a, b, c] = scene.corners(id);
-        let place = ((a + b + c) / (3.0 * place_size)).floor().as_ivec3().to_array();
+        let Some(group) = material.group else { continue };
+        let middle = piece.iter().flat_map(|&id| scene.corners(id)).sum::<Vec3>() / (3 * piece.len()) as f32;
+        let place = (middle / place_size).floor().as_ivec3().to_array();
         // A bake has written the backs of double-sided triangles out.
         let num_sides = if material.double_sided && !has_backs { 2 } else { 1 };
         for side in 0..num_sides {
             let key = (triangle.instance, triangle.material, triangle.is_back_side, side, place);
-            let surface = by_place.entry(key).or_insert_with(|| Surface {
-                group,
-                is_back: side == 1,
-                triangles: Vec::new(),
-                cumulative_area: Vec::new(),
-            });
-            let before = surface.cumulative_area.last().copied().unwrap_or(0.0);
-            surface.triangles.push(id);
-            surface.cumulative_area.push(before + area_of([a, b, c]));
+            let surface = by_place.entry(key).or_insert_with(|| Surface::new(group, side == 1));
+            piece.iter().for_each(|&id| surface.add(id, area_of(scene.corners(id))));
         }
     }
     by_place.into_values().collect()
 }
 
+/// Emissive triangles of one instance, material and side that hang together by their corners.
+fn pieces(scene: &Scene) -> Vec<Vec<TriangleId>> {
+    let mut piece_of_corner = HashMap::new();
+    let mut pieces: Vec<Vec<TriangleId>> = Vec::new();
+    for (t, triangle) in scene.triangles.iter().enumerate() {
+        if !scene.materials[triangle.material.index()].is_emissive() {
+            continue;
+        }
+        let id = TriangleId::new(t);
+        let surface = (triangle.instance, triangle.material, triangle.is_back_side);
+        let corners = scene.corners(id).map(|corner| (surface, corner.to_array().map(f32::to_bits)));
+        let mut touched: Vec<usize> = corners.iter().filter_map(|corner| piece_of_corner.get(corner).copied()).collect();
+        touched.sort_unstable();
+        touched.dedup();
+        // The triangle joins all pieces that it touches into the first of them.
+        let home = touched.first().copied().unwrap_or_else(|| {
+            pieces.push(Vec::new());
+            pieces.len() - 1
+        });
+        for &other in touched.iter().skip(1) {
+            let moved = std::mem::take(&mut pieces[other]);
+            pieces[home].extend(moved);
+            piece_of_corner.values_mut().filter(|piece| **piece == other).for_each(|piece| *piece = home);
+        }
+        pieces[home].push(id);
+        piece_of_corner.extend(corners.map(|corner| (corner, home)));
+    }
+    pieces.retain(|piece| !piece.is_empty());
+    pieces
+}
+
 impl Surface {
+    fn new(group: GroupId, is_back: bool) -> Self {
+        Self { group, is_back, triangles: Vec::new(), cumulative_area: Vec::new() }
+    }
+
+    fn add(&mut self, id: TriangleId, area: f32) {
+        let before = self.cumulative_area.last().copied().unwrap_or(0.0);
+        self.triangles.push(id);
+        self.cumulative_area.push(before + area);
+    }
+
     /// Adds `count` samples, one in each of as many parts of equal area.
     fn add_samples(&self, scene: &Scene, count: u32, height: f32, lamp: usize, samples: &mut Vec<LightSample>) {
         let area = self.cumulative_area.last().copied().unwrap_or(0.0);

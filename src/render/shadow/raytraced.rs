@@ -12,23 +12,25 @@ use super::light_samples::LightSample;
 use super::light_targets::{LightTargets, depth_stencil_format};
 use super::real_time::Subject;
 use super::solid::SolidPipelines;
+use crate::base::ids::TriangleId;
 use crate::gpu::readback::read_texture;
 use crate::gpu::scene_buffers::GpuVertex;
 use crate::gpu::{Gpu, GpuError, SceneBuffers, shaders};
 use crate::render::{Look, View};
 use crate::trace::Tracer;
 
-/// A ray begins this share of the way from its point to the eye: on the side that is seen, beyond rounding. What faces
-/// away from the light is then in its own shadow.
+/// A ray begins this share of the way from its point to the eye: on the side that is seen, beyond rounding.
 const TOWARDS_EYE: f32 = 1e-5;
 
 /// A visible point.
 #[derive(Clone, Copy, Debug)]
 struct VisiblePoint {
     /// Metres.
-    pub point: Vec3,
+    point: Vec3,
     /// Unit shading normal on the side that is seen.
-    pub normal: Vec3,
+    normal: Vec3,
+    /// The triangle on which it lies, where a ray from the eye finds it again.
+    triangle: Option<TriangleId>,
 }
 
 /// Finds visible points.
@@ -68,7 +70,11 @@ impl VisiblePoints {
         let normals = read_texture(gpu, &textures[1], 16)?;
         let pixel = |(point, normal): (&[u8; 16], &[u8; 16])| {
             let ([x, y, z, is_there], [nx, ny, nz, _]) = (floats(point), floats(normal));
-            (is_there > 0.0).then_some(VisiblePoint { point: Vec3::new(x, y, z), normal: Vec3::new(nx, ny, nz) })
+            (is_there > 0.0).then_some(VisiblePoint {
+                point: Vec3::new(x, y, z),
+                normal: Vec3::new(nx, ny, nz),
+                triangle: None,
+            })
         };
         Ok(points.as_chunks::<16>().0.iter().zip(normals.as_chunks::<16>().0).map(pixel).collect())
     }
@@ -131,8 +137,8 @@ impl RaytracedLight {
         subject: Subject<'_>,
         samples: &[LightSample],
     ) -> wgpu::TextureView {
-        let points = self.points(gpu, size, subject).unwrap_or_default();
         let tracer = Tracer::new(subject.shadows.scene());
+        let points = self.points(gpu, size, subject, &tracer).unwrap_or_default();
         let of = |visible: &VisiblePoint| {
             let mut sum = Vec4::ZERO;
             for sample in samples {
@@ -159,8 +165,8 @@ impl RaytracedLight {
         subject: Subject<'_>,
         samples: &[LightSample],
     ) -> Result<Vec<Vec<bool>>, GpuError> {
-        let points = self.points(gpu, size, subject)?;
         let tracer = Tracer::new(subject.shadows.scene());
+        let points = self.points(gpu, size, subject, &tracer)?;
         let lights = |sample: &LightSample, visible: &VisiblePoint| {
             received(subject, visible, sample).max_element() > 0.0 && is_lit(&tracer, subject.view, visible, sample)
         };
@@ -175,6 +181,7 @@ impl RaytracedLight {
         gpu: &Gpu,
         size: [u32; 2],
         subject: Subject<'_>,
+        tracer: &Tracer<'_>,
     ) -> Result<Vec<Option<VisiblePoint>>, GpuError> {
         let targets = match self.targets.take() {
             Some(targets) if targets.size == size => targets,
@@ -185,7 +192,9 @@ impl RaytracedLight {
         gpu.queue.submit([encoder.finish()]);
         let points = self.points.find(gpu, &targets, subject.frame, subject.scene, subject.look);
         self.targets = Some(targets);
-        points
+        let mut points = points?;
+        points.par_iter_mut().flatten().for_each(|point| point.triangle = triangle_at(tracer, subject.view, point.point));
+        Ok(points)
     }
 }
 
@@ -194,14 +203,33 @@ fn received(subject: Subject<'_>, visible: &VisiblePoint, sample: &LightSample) 
     sample.irradiance(visible.point, visible.normal) * subject.look.group_weight(sample.light.group)
 }
 
-/// Nothing solid stands between a visible point and a light sample.
+/// The triangle that the eye sees at a point.
+fn triangle_at(tracer: &Tracer<'_>, view: &View, point: Vec3) -> Option<TriangleId> {
+    let back = 10.0 * TOWARDS_EYE * view.towards_eye(point);
+    tracer.nearest(point + back, -back, 2.0).map(|hit| hit.triangle)
+}
+
+/// Nothing solid stands between a visible point and a light sample, and its triangle shows the light the side it shows
+/// the eye.
 fn is_lit(tracer: &Tracer<'_>, view: &View, visible: &VisiblePoint, sample: &LightSample) -> bool {
-    let origin = visible.point + TOWARDS_EYE * view.towards_eye(visible.point);
     let place = sample.place();
+    if visible.triangle.is_some_and(|id| turns_its_back(tracer.scene().corners(id), view.eye(), place)) {
+        return false;
+    }
+    let origin = visible.point + TOWARDS_EYE * view.towards_eye(visible.point);
     if place.w == 0.0 {
         return tracer.nearest(origin, place.truncate(), f32::INFINITY).is_none();
     }
     tracer.nearest(origin, place.truncate() - origin, 1.0).is_none()
+}
+
+/// The eye and the light, both homogeneous, are on different sides of a triangle. In double precision, as a ray cannot
+/// tell where light grazes the triangle.
+fn turns_its_back(corners: [Vec3; 3], eye: Vec4, light: Vec4) -> bool {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let normal = (b - a).cross(c - a);
+    let height = |place: Vec4| normal.dot(place.truncate().as_dvec3() - f64::from(place.w) * a);
+    height(eye) * height(light) < 0.0
 }
 
 /// A texture of one sample a pixel that holds irradiance.

@@ -227,6 +227,7 @@ impl RealTimeLight {
         }
         if settings.technique == ShadowTechnique::Planar {
             self.planar.draw(gpu, &mut pass, subject, sample.place());
+            self.cutouts.draw(&mut pass, subject);
         }
         drop(pass);
         // Light where there are none.
