@@ -142,7 +142,7 @@ impl Stage {
         alone.volumes.joined = false;
         for wanted in [&joined, &alone, &settings(ShadowTechnique::VolumeDepthPass)] {
             let difference = shadow_difference(&shot.decisions(gpu, wanted), &truth);
-            assert_eq!(num_different(&difference), 0, "{wanted:?}");
+            assert_eq!(num_different(&difference), 0, "{wanted:?} at {:?}", places(&difference));
         }
     }
 }
@@ -192,6 +192,13 @@ fn raytraced() -> ShadowSettings {
 
 fn num_different(difference: &ShadowDifference) -> usize {
     difference.count.iter().filter(|&&count| count > 0).count()
+}
+
+/// Column, row and whether it is too bright, of the first pixels that differ.
+fn places(difference: &ShadowDifference) -> Vec<(usize, usize, bool)> {
+    let width = difference.size[0] as usize;
+    let differing = (0..difference.count.len()).filter(|&pixel| difference.count[pixel] > 0);
+    differing.map(|pixel| (pixel % width, pixel / width, difference.is_too_bright[pixel])).take(8).collect()
 }
 
 fn at(x: f32, y: f32, z: f32) -> Mat4 {
@@ -408,9 +415,11 @@ fn case_21_planar_shadows_show_each_fault_when_its_cure_is_off() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::new();
     // One box through the floor, one over another, one whose shadow would stick out, one below the floor.
-    stage.cube(at(-1.5, 0.2, 0.0), 0).cube(at(0.5, 1.0, 0.0), 0).cube(at(0.6, 2.2, 0.1), 0).cube(at(3.6, 1.0, -1.0), 0);
+    stage.cube(at(-1.5, 0.2, 0.0), 0).cube(at(0.5, 1.0, 0.0), 0).cube(at(0.6, 2.2, 0.1), 0).cube(at(3.4, 0.9, 0.0), 0);
     stage.cube(at(1.0, -1.5, 2.5), 0);
+    // A lower floor beyond the edge of the upper one.
     stage.quad(Vec3::new(4.0, -1.5, 4.0), 6.0 * Vec3::X, -8.0 * Vec3::Z);
+    stage.seen(Vec3::new(2.5, 4.0, 7.0), Vec3::new(2.5, 0.0, 0.0));
     let shot = stage.shot(gpu);
     let mut planar = settings(ShadowTechnique::Planar);
     planar.planar.num_receivers = 1;
@@ -461,8 +470,8 @@ fn case_22_maps_are_right_within_their_resolution_and_show_acne_without_bias() {
         let share = shot.fault(gpu, &map);
         assert!(share <= 0.005, "{kind:?}: {share}");
         (map.maps.normal_offset, map.maps.slope_bias, map.maps.pcf_radius) = (0.0, 0.0, 0);
-        let share = shot.fault(gpu, &map);
-        assert!(share > 0.01, "{kind:?} without bias: {share}");
+        let with_acne = shot.fault(gpu, &map);
+        assert!(with_acne > 0.003 && with_acne > 4.0 * share, "{kind:?}: {with_acne} without bias, {share} with");
     }
 }
 

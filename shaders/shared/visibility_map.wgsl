@@ -8,7 +8,7 @@ struct ShadowMap {
     texel: f32,
     // Shift of a point along its normal, texels.
     normal_offset: f32,
-    // Shift towards the light, texels.
+    // Shift towards the light: as deep as the surface falls over so many texels.
     slope_bias: f32,
     // Texels each way over which shadows are softened.
     pcf_radius: i32,
@@ -18,6 +18,9 @@ struct ShadowMap {
 @group(2) @binding(0) var<uniform> shadow_map: ShadowMap;
 @group(2) @binding(1) var map_depth: texture_depth_2d_array;
 @group(2) @binding(2) var map_sampler: sampler_comparison;
+
+// A surface seen edge on from the light has no slope to speak of.
+const SMALLEST_AREA: f32 = 1e-12;
 
 fn visibility(point: vec3f, facet: vec3f) -> f32 {
     let offset = light.place.xyz - light.place.w * point;
@@ -29,25 +32,44 @@ fn visibility(point: vec3f, facet: vec3f) -> f32 {
     }
     let axis_distance = max(abs(offset.x), max(abs(offset.y), abs(offset.z)));
     let texel = shadow_map.texel * select(1.0, axis_distance, light.place.w > 0.0);
-    // Away from the surface, the more the flatter the light falls on it, and towards the light.
+    // Away from the surface, the more the flatter the light falls on it.
     let slope = sqrt(saturate(1.0 - cosine * cosine));
-    let shifted = point + texel * (shadow_map.normal_offset * slope * facet + shadow_map.slope_bias * to_light);
+    let shifted = point + texel * shadow_map.normal_offset * slope * facet;
     let face = select(0u, cube_face(shifted - light.place.xyz), shadow_map.num_faces == 6u);
-    let clip = shadow_map.projection_from_world[face] * vec4f(shifted, 1.0);
-    let ndc = clip.xyz / clip.w;
-    let uv = vec2f(0.5 + 0.5 * ndc.x, 0.5 - 0.5 * ndc.y);
-    return lit_share(uv, face, ndc.z);
+    let seen = in_map(face, shifted);
+    return lit_share(seen, face, depth_slope(face, shifted, seen, facet, texel));
 }
 
-// Mean over the texels round `uv`; each comparison is interpolated between four.
-fn lit_share(uv: vec2f, face: u32, depth: f32) -> f32 {
-    let size = vec2f(textureDimensions(map_depth));
+// Place in the map: -1..1 across and up, and depth.
+fn in_map(face: u32, point: vec3f) -> vec3f {
+    let clip = shadow_map.projection_from_world[face] * vec4f(point, 1.0);
+    return clip.xyz / clip.w;
+}
+
+// Change of depth across and up the map along the plane of the surface; depth is linear there.
+fn depth_slope(face: u32, point: vec3f, seen: vec3f, facet: vec3f, texel: f32) -> vec2f {
+    let across = normalize(cross(facet, select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(facet.x) > 0.7)));
+    let a = in_map(face, point + texel * across) - seen;
+    let b = in_map(face, point + texel * cross(facet, across)) - seen;
+    let determinant = a.x * b.y - a.y * b.x;
+    if abs(determinant) < SMALLEST_AREA {
+        return vec2f(0.0);
+    }
+    return vec2f(b.y * a.z - a.y * b.z, a.x * b.z - b.x * a.z) / determinant;
+}
+
+// Mean over the texels round `seen`, each compared with the depth of the surface there; each comparison is interpolated
+// between four, whose spread the bias covers.
+fn lit_share(seen: vec3f, face: u32, slope: vec2f) -> f32 {
+    let step = 2.0 / vec2f(textureDimensions(map_depth));
+    let bias = shadow_map.slope_bias * dot(abs(slope), step);
     let radius = shadow_map.pcf_radius;
     var sum = 0.0;
     for (var y = -radius; y <= radius; y++) {
         for (var x = -radius; x <= radius; x++) {
-            let at = uv + vec2f(f32(x), f32(y)) / size;
-            sum += textureSampleCompareLevel(map_depth, map_sampler, at, face, depth);
+            let shift = vec2f(f32(x), f32(y)) * step;
+            let uv = vec2f(0.5, 0.5) + vec2f(0.5, -0.5) * (seen.xy + shift);
+            sum += textureSampleCompareLevel(map_depth, map_sampler, uv, face, seen.z + dot(slope, shift) + bias);
         }
     }
     let width = f32(2 * radius + 1);

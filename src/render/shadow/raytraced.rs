@@ -220,7 +220,8 @@ fn is_lit(tracer: &Tracer<'_>, view: &View, visible: &VisiblePoint, sample: &Lig
     if place.w == 0.0 {
         return tracer.nearest(origin, place.truncate(), f32::INFINITY).is_none();
     }
-    tracer.nearest(origin, place.truncate() - origin, 1.0).is_none()
+    let to_light = place.truncate() - origin;
+    tracer.nearest(origin, to_light.normalize_or_zero(), to_light.length()).is_none()
 }
 
 /// The eye and the light, both homogeneous, are on different sides of a triangle. In double precision, as a ray cannot

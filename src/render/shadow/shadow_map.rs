@@ -45,13 +45,14 @@ pub struct MapSettings {
     pub pcf_radius: u32,
     /// Shift of a point along its normal, texels: too little makes acne, too much lets light through thin walls.
     pub normal_offset: f32,
-    /// Shift of a point towards the light, texels: too little makes acne, too much detaches shadows.
+    /// Shift of a point towards the light, as deep as its surface falls over so many texels: too little makes acne, too
+    /// much detaches shadows.
     pub slope_bias: f32,
 }
 
 impl Default for MapSettings {
     fn default() -> Self {
-        Self { resolution: 2048, pcf_radius: 1, normal_offset: 2.0, slope_bias: 0.6 }
+        Self { resolution: 2048, pcf_radius: 1, normal_offset: 0.4, slope_bias: 0.7 }
     }
 }
 

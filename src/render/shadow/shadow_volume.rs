@@ -6,7 +6,7 @@
 //! are sums over triangles, and each may be counted either way.
 //!
 //! The stencil wraps at 256: passing through more volumes than that is no fault, being in exactly 256 (or a multiple)
-//! counts as none. [`ShadowScene`](super::ShadowScene) notes scenes in which that can happen.
+//! counts as none. An orthographic view has a far plane, which cuts volumes off as [`VolumeSettings::far_plane`] does.
 //!
 //! Source: Heidmann 1991; Everitt, Kilgard 2002; Hornus et al. 2005 (ZP+, the idea of the cure).
 
