@@ -95,7 +95,8 @@ impl Stage {
     fn sphere(&mut self, centre: Vec3, radius: f32) -> &mut Self {
         let (columns, rows) = (20, 10);
         let at = |i: i32, j: i32| {
-            let (phi, theta) = (i as f32 / columns as f32 * std::f32::consts::TAU, j as f32 / rows as f32 * std::f32::consts::PI);
+            let (phi, theta) =
+                (i as f32 / columns as f32 * std::f32::consts::TAU, j as f32 / rows as f32 * std::f32::consts::PI);
             // The last column is the first, to the bit.
             let phi = if i == columns { 0.0 } else { phi };
             let theta = if j == rows { std::f32::consts::PI } else { theta };
@@ -394,7 +395,8 @@ fn case_19_casters_with_holes_and_see_through_ones() {
     let holes: Vec<[u8; 4]> = (0..16).map(|i| [255, 255, 255, if (i + i / 4) % 2 == 0 { 255 } else { 0 }]).collect();
     stage.scene.textures.push(texture(4, &holes));
     let base_colour_texture = Some(slot(0));
-    let grille = stage.material(Material { alpha_mode: AlphaMode::Mask { cutoff: 0.5 }, base_colour_texture, ..paint() });
+    let grille =
+        stage.material(Material { alpha_mode: AlphaMode::Mask { cutoff: 0.5 }, base_colour_texture, ..paint() });
     let mut glass = paint();
     glass.base_colour.w = 0.3;
     let glass = stage.material(Material { alpha_mode: AlphaMode::Blend, ..glass });
@@ -459,7 +461,12 @@ fn case_22_maps_are_right_within_their_resolution_and_show_acne_without_bias() {
     let kinds = [
         LightKind::Point { position: Vec3::new(0.7, 4.0, 0.4) },
         LightKind::Directional { direction: Vec3::new(0.3, -1.0, -0.4).normalize() },
-        LightKind::Spot { position: Vec3::new(0.7, 4.0, 0.4), direction: Vec3::NEG_Y, inner_angle: 0.6, outer_angle: 0.8 },
+        LightKind::Spot {
+            position: Vec3::new(0.7, 4.0, 0.4),
+            direction: Vec3::NEG_Y,
+            inner_angle: 0.6,
+            outer_angle: 0.8,
+        },
     ];
     for kind in kinds {
         let mut stage = Stage::new();
@@ -504,7 +511,8 @@ fn case_25_each_light_has_a_stencil_of_its_own() {
         let found = shadow_difference(&shot.decisions(gpu, &settings(technique)), &truth);
         assert_eq!(num_different(&found), 0);
     }
-    let [a, b] = [ShadowTechnique::VolumeDepthFail, ShadowTechnique::Raytraced].map(|t| shot.picture(gpu, &settings(t), 1));
+    let [a, b] =
+        [ShadowTechnique::VolumeDepthFail, ShadowTechnique::Raytraced].map(|t| shot.picture(gpu, &settings(t), 1));
     let differing = a.radiance.iter().zip(&b.radiance).filter(|(a, b)| (a[0] - b[0]).abs() > 0.01).count();
     assert!(differing < 100, "{differing}: edges only");
 }
@@ -534,7 +542,8 @@ fn soft_shadows_are_the_mean_of_the_rays_to_the_same_points() {
     let truth = shot.decisions(gpu, &with(ShadowTechnique::Raytraced));
     let found = shot.decisions(gpu, &with(ShadowTechnique::VolumeDepthFail));
     assert_eq!((truth.samples.len(), num_different(&shadow_difference(&found, &truth))), (64, 0));
-    let [soft, rays] = [ShadowTechnique::VolumeDepthFail, ShadowTechnique::Raytraced].map(|t| shot.picture(gpu, &with(t), 1));
+    let [soft, rays] =
+        [ShadowTechnique::VolumeDepthFail, ShadowTechnique::Raytraced].map(|t| shot.picture(gpu, &with(t), 1));
     // Where no sample's edge passes, the sums agree; a sample's edge may move by a pixel and brings 1 / 64.
     let distance = |(a, b): (&u8, &u8)| a.abs_diff(*b);
     let differing = soft.display.iter().zip(&rays.display).map(distance).filter(|&d| d > 1).count();
@@ -563,7 +572,9 @@ fn direct_light_of_many_samples_is_that_of_the_closed_form() {
 fn each_technique_looks_as_it_did() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::new();
-    stage.cube(at(-0.9, 0.9, 0.0) * Mat4::from_quat(Quat::from_rotation_y(0.5)), 0).sphere(Vec3::new(1.1, 1.0, 0.2), 0.7);
+    stage
+        .cube(at(-0.9, 0.9, 0.0) * Mat4::from_quat(Quat::from_rotation_y(0.5)), 0)
+        .sphere(Vec3::new(1.1, 1.0, 0.2), 0.7);
     let shot = stage.shot(gpu);
     let techniques = [
         (ShadowTechnique::None, "shadows_none"),

@@ -80,7 +80,8 @@ pub fn shadow_difference(decisions: &Decisions, reference: &Decisions) -> Shadow
     let (mut count, mut is_too_bright) = (vec![0; num_pixels], vec![false; num_pixels]);
     for (ours, theirs) in decisions.samples.iter().zip(&reference.samples) {
         let edges = reference.edges(&theirs.lit);
-        let differs = |&pixel: &usize| ours.lit[pixel] != theirs.lit[pixel] && ours.claims(pixel) && theirs.claims(pixel);
+        let differs =
+            |&pixel: &usize| ours.lit[pixel] != theirs.lit[pixel] && ours.claims(pixel) && theirs.claims(pixel);
         for pixel in (0..num_pixels).filter(differs).filter(|&pixel| !edges[pixel]) {
             count[pixel] += 1;
             is_too_bright[pixel] = ours.lit[pixel];

@@ -20,12 +20,8 @@ pub struct Lit {
 }
 
 /// Light is added where no shadow is counted.
-pub const WHERE_UNSHADOWED: Lit = Lit {
-    read_mask: !0,
-    compare: wgpu::CompareFunction::Equal,
-    reference: 0,
-    operation: wgpu::BlendOperation::Add,
-};
+pub const WHERE_UNSHADOWED: Lit =
+    Lit { read_mask: !0, compare: wgpu::CompareFunction::Equal, reference: 0, operation: wgpu::BlendOperation::Add };
 
 /// Direct light pass.
 pub struct DirectLightPass {

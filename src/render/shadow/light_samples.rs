@@ -59,9 +59,8 @@ impl LightSample {
 #[must_use]
 pub fn light_samples(scene: &Scene, per_surface: u32) -> Vec<LightSample> {
     let punctual = scene.lights.iter().enumerate();
-    let mut samples: Vec<_> = punctual
-        .map(|(lamp, light)| LightSample { light: light.clone(), surface_normal: None, lamp })
-        .collect();
+    let mut samples: Vec<_> =
+        punctual.map(|(lamp, light)| LightSample { light: light.clone(), surface_normal: None, lamp }).collect();
     let (low, high) = scene.bounds();
     let height = HEIGHT * (high - low).max_element();
     for (number, surface) in surfaces(scene).iter().enumerate() {
@@ -113,7 +112,8 @@ fn pieces(scene: &Scene) -> Vec<Vec<TriangleId>> {
         let id = TriangleId::new(t);
         let surface = (triangle.instance, triangle.material, triangle.is_back_side);
         let corners = scene.corners(id).map(|corner| (surface, corner.to_array().map(f32::to_bits)));
-        let mut touched: Vec<usize> = corners.iter().filter_map(|corner| piece_of_corner.get(corner).copied()).collect();
+        let mut touched: Vec<usize> =
+            corners.iter().filter_map(|corner| piece_of_corner.get(corner).copied()).collect();
         touched.sort_unstable();
         touched.dedup();
         // The triangle joins all pieces that it touches into the first of them.
@@ -207,12 +207,8 @@ mod tests {
             uv: [Vec2::ZERO; 2],
             colour: Vec4::ONE,
         };
-        let triangle = |vertices| Triangle {
-            vertices,
-            material: MaterialId(0),
-            instance: InstanceId(0),
-            is_back_side: false,
-        };
+        let triangle =
+            |vertices| Triangle { vertices, material: MaterialId(0), instance: InstanceId(0), is_back_side: false };
         let lamp = Material { emission: Vec3::ONE, group: Some(GroupId(0)), double_sided, ..Material::default() };
         Scene {
             vertices: corners.map(vertex).to_vec(),

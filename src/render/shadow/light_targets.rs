@@ -56,7 +56,8 @@ impl LightTargets {
         let irradiance = texture("direct irradiance", irradiance_format(gpu, samples), drawn | read | copied);
         Self {
             size,
-            depth_stencil: texture("depth and stencil", depth_stencil_format(gpu), drawn).create_view(&Default::default()),
+            depth_stencil: texture("depth and stencil", depth_stencil_format(gpu), drawn)
+                .create_view(&Default::default()),
             irradiance_view: irradiance.create_view(&Default::default()),
             irradiance,
         }

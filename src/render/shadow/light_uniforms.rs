@@ -87,8 +87,11 @@ impl LightUniforms {
             contents: &bytes,
             usage: wgpu::BufferUsages::UNIFORM,
         });
-        let binding =
-            wgpu::BufferBinding { buffer: &buffer, offset: 0, size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64) };
+        let binding = wgpu::BufferBinding {
+            buffer: &buffer,
+            offset: 0,
+            size: wgpu::BufferSize::new(size_of::<LightUniform>() as u64),
+        };
         let group = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("light samples"),
             layout,

@@ -30,12 +30,12 @@ impl NearPlane {
     /// It does where the triangle meets the cone from the light to the near plane, here a capsule round its axis.
     #[must_use]
     pub fn is_reached_by_volume(&self, corners: [Vec3; 3], place: Vec4) -> bool {
-        let to_light =
-            if place.w == 0.0 { place.truncate() * FAR_AWAY } else { place.truncate() - self.centre };
+        let to_light = if place.w == 0.0 { place.truncate() * FAR_AWAY } else { place.truncate() - self.centre };
         let radius = 2.0 * self.radius + MARGIN * corners[0].distance(self.centre).max(to_light.length().min(1e3));
         let middle = (corners[0] + corners[1] + corners[2]) / 3.0;
         let extent = corners.iter().map(|corner| corner.distance(middle)).fold(0.0, f32::max);
-        let along = ((middle - self.centre).dot(to_light) / to_light.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let along =
+            ((middle - self.centre).dot(to_light) / to_light.length_squared().max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
         if (self.centre + along * to_light).distance(middle) > radius + extent {
             return false;
         }

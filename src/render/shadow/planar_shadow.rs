@@ -51,7 +51,13 @@ pub struct PlanarSettings {
 
 impl Default for PlanarSettings {
     fn default() -> Self {
-        Self { num_receivers: 8, stays_on_receiver: true, is_free_of_depth: true, darkens_once: true, clips_casters: true }
+        Self {
+            num_receivers: 8,
+            stays_on_receiver: true,
+            is_free_of_depth: true,
+            darkens_once: true,
+            clips_casters: true,
+        }
     }
 }
 
@@ -163,7 +169,8 @@ impl PlanarShadowPass {
             bind_group_layouts: &[Some(frame_layout)],
             immediate_size: 0,
         });
-        let mark = pipeline(gpu, &layout, &module, samples, wgpu::CompareFunction::Equal, Default::default(), mark_stencil());
+        let mark =
+            pipeline(gpu, &layout, &module, samples, wgpu::CompareFunction::Equal, Default::default(), mark_stencil());
         Self { layout, module, samples, mark, shadow: None, receivers: Vec::new() }
     }
 
@@ -204,8 +211,7 @@ impl PlanarShadowPass {
             if receiver.plane.dot(light) <= clearance * light.w {
                 continue;
             }
-            let shadows =
-                flattened(&subject.shadows.casters, receiver.plane, light, settings.clips_casters, clearance);
+            let shadows = flattened(&subject.shadows.casters, receiver.plane, light, settings.clips_casters, clearance);
             if !shadows.is_empty() {
                 pass.set_stencil_reference(RECEIVER * number + 1);
                 draw(pass, shadow, &vertex_buffer(gpu, &shadows));
@@ -294,7 +300,9 @@ mod tests {
     fn a_point_is_flattened_along_the_line_from_the_light() {
         let light = Vec4::new(0.0, 4.0, 0.0, 1.0);
         let flat = (flattening(FLOOR, light) * Vec4::new(1.0, 2.0, 0.5, 1.0)).to_array();
-        assert!((flat[0] / flat[3] - 2.0).abs() < 1e-6 && flat[1].abs() < 1e-6 && (flat[2] / flat[3] - 1.0).abs() < 1e-6);
+        assert!(
+            (flat[0] / flat[3] - 2.0).abs() < 1e-6 && flat[1].abs() < 1e-6 && (flat[2] / flat[3] - 1.0).abs() < 1e-6
+        );
         let sun = Vec4::new(0.6, 0.8, 0.0, 0.0);
         let flat = (flattening(FLOOR, sun) * Vec4::new(1.0, 2.0, 0.5, 1.0)).to_array();
         assert!((flat[0] / flat[3] + 0.5).abs() < 1e-6, "{flat:?}");

@@ -63,8 +63,16 @@ impl VisiblePoints {
         look: &Look,
     ) -> Result<Vec<Option<VisiblePoint>>, GpuError> {
         let textures = [texture(gpu, targets.size), texture(gpu, targets.size)];
-        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("visible points") });
-        self.draw(&mut encoder, targets, &textures.each_ref().map(|t| t.create_view(&Default::default())), frame, scene, look);
+        let mut encoder =
+            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("visible points") });
+        self.draw(
+            &mut encoder,
+            targets,
+            &textures.each_ref().map(|t| t.create_view(&Default::default())),
+            frame,
+            scene,
+            look,
+        );
         gpu.queue.submit([encoder.finish()]);
         let points = read_texture(gpu, &textures[0], 16)?;
         let normals = read_texture(gpu, &textures[1], 16)?;
@@ -93,7 +101,10 @@ impl VisiblePoints {
                 view,
                 depth_slice: None,
                 resolve_target: None,
-                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
             })
         });
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
@@ -193,7 +204,10 @@ impl RaytracedLight {
         let points = self.points.find(gpu, &targets, subject.frame, subject.scene, subject.look);
         self.targets = Some(targets);
         let mut points = points?;
-        points.par_iter_mut().flatten().for_each(|point| point.triangle = triangle_at(tracer, subject.view, point.point));
+        points
+            .par_iter_mut()
+            .flatten()
+            .for_each(|point| point.triangle = triangle_at(tracer, subject.view, point.point));
         Ok(points)
     }
 }
@@ -245,8 +259,12 @@ fn upload(gpu: &Gpu, size: [u32; 2], irradiance: &[Vec4]) -> wgpu::TextureView {
         usage: wgpu::TextureUsages::TEXTURE_BINDING,
         view_formats: &[],
     };
-    let texture =
-        gpu.device.create_texture_with_data(&gpu.queue, &descriptor, Default::default(), bytemuck::cast_slice(irradiance));
+    let texture = gpu.device.create_texture_with_data(
+        &gpu.queue,
+        &descriptor,
+        Default::default(),
+        bytemuck::cast_slice(irradiance),
+    );
     texture.create_view(&Default::default())
 }
 

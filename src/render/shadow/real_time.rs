@@ -49,8 +49,7 @@ const PLANAR_TWICE: Lit = Lit {
     operation: wgpu::BlendOperation::ReverseSubtract,
 };
 /// Where there is a receiver of planar shadows.
-const ON_RECEIVERS: Lit =
-    Lit { read_mask: ON_RECEIVER, compare: wgpu::CompareFunction::NotEqual, ..WHERE_UNSHADOWED };
+const ON_RECEIVERS: Lit = Lit { read_mask: ON_RECEIVER, compare: wgpu::CompareFunction::NotEqual, ..WHERE_UNSHADOWED };
 
 /// Direct light for pictures with one number of samples a pixel.
 pub struct RealTimeLight {

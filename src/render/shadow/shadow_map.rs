@@ -205,7 +205,11 @@ impl Map {
         });
         let view = |first, count| {
             texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(if count == 1 { wgpu::TextureViewDimension::D2 } else { wgpu::TextureViewDimension::D2Array }),
+                dimension: Some(if count == 1 {
+                    wgpu::TextureViewDimension::D2
+                } else {
+                    wgpu::TextureViewDimension::D2Array
+                }),
                 base_array_layer: first,
                 array_layer_count: Some(count),
                 ..Default::default()
@@ -368,7 +372,10 @@ mod tests {
         let (maps, _) = fitted((low, high), Vec3::new(0.3, -0.8, 0.5).normalize(), 512.0, 3.0);
         for point in [low, high, Vec3::new(low.x, high.y, low.z), 0.5 * (low + high)] {
             let seen = maps[0].project_point3(point);
-            assert!(seen.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&seen.z), "{point} is at {seen}");
+            assert!(
+                seen.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&seen.z),
+                "{point} is at {seen}"
+            );
         }
     }
 }

@@ -100,8 +100,17 @@ impl ShadowVolumePass {
     }
 
     /// Finds the volumes of all lights at `places`; those of the last picture are kept where nothing has moved.
-    pub fn prepare(&mut self, gpu: &Gpu, subject: Subject<'_>, places: &[Vec4], counting: Counting, settings: &VolumeSettings) {
-        if let Some(distance) = settings.far_plane.filter(|&d| self.cut_off.as_ref().is_none_or(|(known, _)| *known != d)) {
+    pub fn prepare(
+        &mut self,
+        gpu: &Gpu,
+        subject: Subject<'_>,
+        places: &[Vec4],
+        counting: Counting,
+        settings: &VolumeSettings,
+    ) {
+        if let Some(distance) =
+            settings.far_plane.filter(|&d| self.cut_off.as_ref().is_none_or(|(known, _)| *known != d))
+        {
             let depth = subject.view.depth_at(distance);
             self.cut_off = Some((distance, Pipelines::new(gpu, &self.layout, &self.module, self.samples, Some(depth))));
         }
@@ -148,7 +157,9 @@ fn volumes(gpu: &Gpu, subject: Subject<'_>, place: Vec4, counting: Counting, set
     let casters = &subject.shadows.casters;
     let facing = facing(casters, place);
     let (pass, fail) = match (counting, settings.near_plane_cure) {
-        (Counting::DepthFail, _) if !settings.joined => (Hull::default(), hull_triangle_by_triangle(casters, &facing, place)),
+        (Counting::DepthFail, _) if !settings.joined => {
+            (Hull::default(), hull_triangle_by_triangle(casters, &facing, place))
+        }
         (Counting::DepthFail, _) => (Hull::default(), hull(casters, &facing, place, Counting::DepthFail)),
         (Counting::DepthPass, false) => (hull(casters, &facing, place, Counting::DepthPass), Hull::default()),
         (Counting::DepthPass, true) => cured(subject, casters, &facing, place),
@@ -168,7 +179,8 @@ fn cured(subject: Subject<'_>, casters: &Casters, facing: &[i32], place: Vec4) -
     let mut pass = hull(casters, &by_pass, place, Counting::DepthPass);
     // A cap coincides with its triangle, and only where that is invisible is the cap in front of what is seen.
     for (triangle, &facing) in casters.triangles.iter().zip(&by_pass).filter(|(_, facing)| **facing != 0) {
-        let is_invisible = subject.look.cull_back && triangle.is_single_sided && is_seen_from_behind(subject, casters, triangle);
+        let is_invisible =
+            subject.look.cull_back && triangle.is_single_sided && is_seen_from_behind(subject, casters, triangle);
         if is_invisible {
             pass.add_light_caps(casters, triangle, facing);
         }

@@ -67,7 +67,8 @@ pub fn hull(casters: &Casters, facing: &[i32], place: Vec4, counting: Counting) 
         }
         walls
     };
-    let mut hull = Hull { walls: casters.edges.par_chunks(CHUNK).map(of_edges).collect::<Vec<_>>().concat(), ..Hull::default() };
+    let mut hull =
+        Hull { walls: casters.edges.par_chunks(CHUNK).map(of_edges).collect::<Vec<_>>().concat(), ..Hull::default() };
     if counting == Counting::DepthFail {
         add_caps(&mut hull, casters, facing, is_directional);
     }

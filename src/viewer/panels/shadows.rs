@@ -27,7 +27,8 @@ pub fn shadows_ui(ui: &mut Ui, light: &mut LightSettings) {
 }
 
 fn settings_ui(ui: &mut Ui, shadows: &mut ShadowSettings) {
-    let name = TECHNIQUES.iter().find(|(technique, ..)| *technique == shadows.technique).map_or("", |(_, name, _)| name);
+    let name =
+        TECHNIQUES.iter().find(|(technique, ..)| *technique == shadows.technique).map_or("", |(_, name, _)| name);
     ComboBox::from_label("Technique").selected_text(name).show_ui(ui, |ui| {
         for (technique, name, hint) in TECHNIQUES {
             ui.selectable_value(&mut shadows.technique, technique, name).on_hover_text(hint);
@@ -67,7 +68,8 @@ fn depth_pass_ui(ui: &mut Ui, volumes: &mut VolumeSettings) {
 
 fn depth_fail_ui(ui: &mut Ui, volumes: &mut VolumeSettings) {
     let mut is_infinite = volumes.far_plane.is_none();
-    if ui.checkbox(&mut is_infinite, "infinite projection").on_hover_text("Off: a far plane cuts volumes off").changed() {
+    if ui.checkbox(&mut is_infinite, "infinite projection").on_hover_text("Off: a far plane cuts volumes off").changed()
+    {
         volumes.far_plane = (!is_infinite).then_some(FAR_PLANE);
     }
     if let Some(distance) = &mut volumes.far_plane {
@@ -81,5 +83,6 @@ fn planar_ui(ui: &mut Ui, planar: &mut PlanarSettings) {
     ui.checkbox(&mut planar.stays_on_receiver, "shadows stay on their plane").on_hover_text("Off: they stick out");
     ui.checkbox(&mut planar.is_free_of_depth, "no fight for depth").on_hover_text("Off: shadow and plane flicker");
     ui.checkbox(&mut planar.darkens_once, "darken once").on_hover_text("Off: overlapping casters darken twice");
-    ui.checkbox(&mut planar.clips_casters, "cut casters at the plane").on_hover_text("Off: what is below throws shadows up");
+    ui.checkbox(&mut planar.clips_casters, "cut casters at the plane")
+        .on_hover_text("Off: what is below throws shadows up");
 }
