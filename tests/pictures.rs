@@ -7,7 +7,9 @@ use glam::{Affine2, Vec2, Vec3};
 use hemicube::base::ids::GroupId;
 use hemicube::gpu::readback::read_texture;
 use hemicube::gpu::{Gpu, SceneBuffers};
-use hemicube::render::{Exposure, Look, Picture, Raster, Renderer, Shading, ToneMap, View, picture, picture_of};
+use hemicube::render::{
+    Exposure, Look, Picture, Raster, Renderer, Shading, ToneMap, View, develop, picture, picture_of,
+};
 use hemicube::scene::{AlphaMode, Camera, Material};
 use wgpu::{CommandEncoderDescriptor, Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages};
 
@@ -504,4 +506,22 @@ fn a_room_looks_as_it_did() {
     let scene = SceneBuffers::new(gpu, &room().baked);
     let drawn = picture_of(gpu, &scene, &camera, [256; 2], &Look::default(), 1);
     assert_snapshot("room", &drawn.expect("a picture"));
+}
+
+#[test]
+fn the_processor_shows_light_as_the_gpu_does() {
+    // From dark to far beyond white, in colour, and a corner where nothing is.
+    let mut quads = Quads::with_groups(1);
+    let material = quads.material(paint(Vec3::new(0.9, 0.6, 0.3)));
+    quads.quad(Vec3::new(-1.0, -1.0, 0.0), 1.9 * Vec3::X, 1.7 * Vec3::Y, material);
+    quads.light(GroupId(0), |at| Vec3::new(3e3, 1e3, 2e3) * (0.01 + (at.x + 1.0) * (at.y + 1.0)), |_| Vec3::ZERO);
+    for exposure in [Exposure::Auto, Exposure::Ev(-9.0), Exposure::Ev(-6.0)] {
+        for tone_map in [ToneMap::Neutral, ToneMap::Linear] {
+            let look = Look { exposure, tone_map, ..Look::default() };
+            let Some(drawn) = draw(&quads, &look) else { return };
+            let developed = develop([SIZE; 2], drawn.radiance.clone(), &look);
+            let off = drawn.display.iter().zip(&developed.display).map(|(a, b)| a.abs_diff(*b)).max();
+            assert!(off <= Some(1), "{look:?}: {off:?} steps apart");
+        }
+    }
 }

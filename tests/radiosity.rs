@@ -1,29 +1,45 @@
-//! Known answers through the whole GPU route.
+//! Known answers through the whole route.
 
 use glam::Vec3;
-use hemicube::bake::{BakeSettings, Quality, bake};
+use hemicube::bake::{BakeSettings, Method, Quality, bake};
 use hemicube::base::progress::Unwatched;
+use hemicube::gpu::Gpu;
 
 use crate::support::device::gpu;
 use crate::support::scenes;
 
-/// Mean and worst relative deviation from the exact answer, over all vertices.
+/// Worst relative deviation from the exact answer over all vertices, and the imbalance of the energy account.
+fn furnace_errors(gpu: Option<&Gpu>, method: Method) -> (f32, f64) {
+    let (reflectance, exitance) = (Vec3::new(0.5, 0.7, 0.2), Vec3::new(1.0, 2.0, 3.0));
+    let scene = scenes::furnace(reflectance, exitance);
+    let settings = BakeSettings {
+        element_size: Some(0.1),
+        method: Some(method),
+        threshold: 1e-4,
+        ..BakeSettings::preset(Quality::Draft)
+    };
+    let bake = bake(gpu, &scene, &settings, &Unwatched).unwrap();
+    let exact = exitance / (Vec3::ONE - reflectance);
+    let group = &bake.baked.light.groups[0];
+    let deviation = |(direct, indirect): (&Vec3, &Vec3)| {
+        let radiosity = exitance + reflectance * (*direct + *indirect);
+        ((radiosity - exact) / exact).abs().max_element()
+    };
+    let worst = group.direct.iter().zip(&group.indirect).map(deviation).fold(0.0, f32::max);
+    (worst, bake.report.energy.imbalance)
+}
+
 #[test]
 fn in_a_furnace_every_vertex_has_the_closed_form_light() {
     let Some(gpu) = gpu() else { return };
-    let (reflectance, exitance) = (Vec3::new(0.5, 0.7, 0.2), Vec3::new(1.0, 2.0, 3.0));
-    let scene = scenes::furnace(reflectance, exitance);
-    let settings = BakeSettings { element_size: Some(0.1), ..BakeSettings::preset(Quality::Draft) };
-    let bake = bake(gpu, &scene, &BakeSettings { threshold: 1e-4, ..settings }, &Unwatched).unwrap();
-    let exact = exitance / (Vec3::ONE - reflectance);
-    let group = &bake.baked.light.groups[0];
-    let mut worst = 0.0f32;
-    for (direct, indirect) in group.direct.iter().zip(&group.indirect) {
-        let radiosity = exitance + reflectance * (*direct + *indirect);
-        worst = worst.max(((radiosity - exact) / exact).abs().max_element());
-    }
-    assert!(worst < 5e-3, "worst deviation {worst}");
-    assert!(bake.report.energy.imbalance < 1e-3, "{:?}", bake.report.energy);
+    let (worst, imbalance) = furnace_errors(Some(gpu), Method::Hemicube);
+    assert!(worst < 5e-3 && imbalance < 1e-3, "worst deviation {worst}, imbalance {imbalance}");
+}
+
+#[test]
+fn hemispheres_bake_a_furnace_without_a_device() {
+    let (worst, imbalance) = furnace_errors(None, Method::Hemisphere);
+    assert!(worst < 5e-3 && imbalance < 1e-3, "worst deviation {worst}, imbalance {imbalance}");
 }
 
 /// Two point lights in two groups, one twice as bright as when it burns alone in the other scene.
@@ -41,7 +57,7 @@ fn lamp_room(intensities: [f32; 2]) -> hemicube::scene::Scene {
 fn light_is_linear_and_groups_do_not_mix() {
     let Some(gpu) = gpu() else { return };
     let settings = BakeSettings { element_size: Some(0.4), ..BakeSettings::preset(Quality::Draft) };
-    let bake = |intensities| bake(gpu, &lamp_room(intensities), &settings, &Unwatched).unwrap().baked.light;
+    let bake = |intensities| bake(Some(gpu), &lamp_room(intensities), &settings, &Unwatched).unwrap().baked.light;
     let (one, other) = (bake([100.0, 30.0]), bake([200.0, 30.0]));
     // Which patches shoot together depends on the powers, so the sums differ by what is left unshot.
     for (group, factor) in [(0, 2.0), (1, 1.0)] {
@@ -58,7 +74,7 @@ fn light_is_linear_and_groups_do_not_mix() {
 fn in_a_closed_room_no_light_escapes() {
     let Some(gpu) = gpu() else { return };
     let settings = BakeSettings { element_size: Some(0.4), ..BakeSettings::preset(Quality::Draft) };
-    let report = bake(gpu, &lamp_room([100.0, 30.0]), &settings, &Unwatched).unwrap().report;
+    let report = bake(Some(gpu), &lamp_room([100.0, 30.0]), &settings, &Unwatched).unwrap().report;
     assert!(report.energy.escaped < 1e-4 * report.energy.emitted, "{:?}", report.energy);
     assert!(report.energy.imbalance < 1e-3 && report.unshot_share < 0.01, "{report:?}");
     // 4 pi I arrives from each lamp; vertices sample it, so a coarse mesh is good for a few percent.
@@ -80,6 +96,6 @@ fn a_wall_of_fine_holes_bakes_to_finite_light() {
     for (i, vertex) in scene.vertices.iter_mut().enumerate() {
         vertex.uv[0] = glam::Vec2::new((i % 4 / 2) as f32, (i % 2) as f32);
     }
-    let light = bake(gpu, &scene, &settings, &Unwatched).unwrap().baked.light;
+    let light = bake(Some(gpu), &scene, &settings, &Unwatched).unwrap().baked.light;
     assert!(light.groups.iter().flat_map(|g| g.direct.iter().chain(&g.indirect)).all(|e| e.is_finite()));
 }

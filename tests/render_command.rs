@@ -60,3 +60,17 @@ fn wishes_that_cannot_be_met_are_named() {
     assert_fails(&render(folder.path(), "no/such/a.png", &[]), &["no/such/a.png"]);
     assert_eq!(std::fs::read_dir(folder.path()).expect("listed").count(), 0, "nothing was written");
 }
+
+#[test]
+fn traced_pictures_need_no_gpu_and_are_the_same_each_time() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let bytes = |file: &str| {
+        let written = render(folder.path(), file, &["--renderer", "two-pass", "--spp", "4"]);
+        assert!(written.status.success(), "{written:?}");
+        assert!(String::from_utf8_lossy(&written.stderr).contains("standard error"), "{written:?}");
+        std::fs::read(folder.path().join(file)).expect("written")
+    };
+    assert!(bytes("a.exr") == bytes("b.exr"));
+    assert_fails(&render(folder.path(), "c.png", &["--renderer", "path"]), &["path", "ambient"]);
+    assert!(!folder.path().join("c.png").exists());
+}

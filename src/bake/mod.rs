@@ -1,17 +1,16 @@
 //! Floor 5: the whole job as one recipe.
 
+pub mod measure;
+mod method;
 mod report;
 mod settings;
 mod watch;
-
-use std::time::Instant;
 
 use thiserror::Error;
 
 use crate::baked::BakedScene;
 use crate::base::progress::Stage;
 use crate::form_factor::FormFactorError;
-use crate::form_factor::hemicube::Hemicubes;
 use crate::gpu::Gpu;
 use crate::patch::{MeshError, PatchMesh};
 use crate::radiosity::Field;
@@ -19,14 +18,19 @@ use crate::radiosity::direct::DirectLight;
 use crate::radiosity::gather::{Gathered, gather};
 use crate::radiosity::gathering::{polish, reflected_radiosity};
 use crate::radiosity::progressive::{Progressive, Solution};
-use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, on_elements, vertex_light};
+use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, vertex_light};
 use crate::radiosity::sites::Sites;
 use crate::scene::Scene;
 use crate::trace::Tracer;
 
+pub use method::Method;
 pub use report::{Flux, Report};
 pub use settings::{BakeSettings, Quality};
 pub use watch::{Seconds, Watch};
+
+use method::Seer;
+use settings::PENUMBRA_RAYS_ON_ELEMENTS;
+use watch::Clock;
 
 /// A finished (or cancelled) bake.
 pub struct Bake {
@@ -49,6 +53,9 @@ pub enum BakeError {
     /// No form factors.
     #[error(transparent)]
     FormFactor(#[from] FormFactorError),
+    /// Hemicubes were asked for where nothing can draw them.
+    #[error("hemicubes need a device that draws them; the hemisphere method needs none")]
+    NoDevice,
     /// Nothing shines.
     #[error("the scene {0} has no light: no emissive material and no light of KHR_lights_punctual")]
     NoLight(String),
@@ -59,13 +66,14 @@ pub enum BakeError {
 /// Where the watch cancels, what is solved so far is returned, with the average of the elements in place of gathered light.
 ///
 /// # Errors
-/// The scene has no triangles or no light, would need too many elements, or the device failed.
-pub fn bake(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, watch: &dyn Watch) -> Result<Bake, BakeError> {
+/// The scene has no triangles or no light, would need too many elements, hemicubes are wanted without a `gpu`, or the device
+/// failed.
+pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &dyn Watch) -> Result<Bake, BakeError> {
     if scene.light_groups.is_empty() {
         return Err(BakeError::NoLight(scene.name.clone()));
     }
-    let mut seconds = Seconds::default();
-    let mut clock = Instant::now();
+    let method = settings.method.unwrap_or_else(|| Method::fastest(gpu));
+    let mut clock = Clock::start();
 
     // Cut the scene into elements and patches.
     watch.report(Stage::Mesh, 0.0);
@@ -73,45 +81,53 @@ pub fn bake(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, watch: &dyn Watch
     let mesh = PatchMesh::new(scene, &sizes)?;
     let mut baked = dark_scene(scene, &mesh);
     watch.mesh(&baked);
-    seconds.lap(Stage::Mesh, &mut clock);
+    clock.lap(Stage::Mesh);
 
-    // Direct light at the vertices, and from there on the elements.
+    // Direct light at the vertices, to be shown, and on the elements, to be sent on.
     let sites = Sites::new(scene);
     let places = sites.of_light_vertices(&mesh);
     let tracer = Tracer::new(scene);
-    let mut direct = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays).irradiance(&places, watch);
-    seconds.lap(Stage::Direct, &mut clock);
+    let lights = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays);
+    let mut direct = lights.irradiance(&places, watch);
+    let spread = sites.of_elements(&mesh, settings.points_an_element);
+    let on_elements = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS).irradiance(&spread, watch);
+    let on_elements = on_elements.mean_of_each(settings.points_an_element);
+    clock.lap(Stage::Direct);
 
     // Shoot what the elements reflect, greatest power first.
-    let mut solver = Progressive::new(&mesh, sites, on_elements(&mesh, &direct), settings.progressive());
-    let mut shooting = Hemicubes::new(gpu, scene, &mesh, settings::SHOOTING_PX);
+    let seer = Seer::new(method, gpu, &mesh, &tracer)?;
+    let mut shooting = seer.shooting();
+    let mut solver = Progressive::new(&mesh, sites, on_elements, settings.progressive());
     while !solver.is_done() && !watch.is_cancelled() {
         if watch.wants_light() {
             watch.light(&vertex_light(&mesh, &direct, &estimate(&mesh, solver.solution())));
         }
-        solver.step(&mut shooting, watch)?;
+        solver.step(&mut *shooting, watch)?;
     }
+    drop(shooting);
     let unshot_share = solver.unshot_share();
     let (solution, rows) = solver.into_parts();
-    let on_patches = polish(&mesh, &solution, &rows);
-    seconds.lap(Stage::Solve, &mut clock);
+    clock.lap(Stage::Solve);
 
     // Collect the indirect light at the vertices.
-    let mut gathering = Hemicubes::new(gpu, scene, &mesh, settings.hemicube_px);
-    let radiosity = reflected_radiosity(&mesh, &solution.direct, &on_patches);
-    let gathered = gather(&mesh, &radiosity, &mut gathering, &places, &settings.gather(&sizes), watch)?;
+    let mut gathered = Gathered::nothing(places.len(), scene.light_groups.len());
+    if !watch.is_cancelled() {
+        let radiosity = reflected_radiosity(&mesh, &solution.direct, &polish(&mesh, &solution, &rows));
+        let gather_settings = settings.gather(&sizes);
+        gathered = gather(&mesh, &radiosity, &mut *seer.gathering(settings), &places, &gather_settings, watch)?;
+    }
     let mut indirect = completed(&gathered, || estimate(&mesh, &solution));
     fill_hidden(&mesh, &gathered.is_valid, [&mut direct, &mut indirect]);
     baked.light = vertex_light(&mesh, &direct, &indirect);
     watch.light(&baked.light);
-    seconds.lap(Stage::Gather, &mut clock);
+    clock.lap(Stage::Gather);
 
     let report = Report {
         scene: scene.name.clone(),
         quality: settings.quality,
-        method: "hemicube",
+        method,
         solver: "progressive",
-        adapter: gpu.name(),
+        adapter: gpu.map_or_else(|| "none".to_owned(), Gpu::name),
         input_triangles: scene.triangles.len(),
         elements: mesh.elements.len(),
         patches: mesh.patches.len(),
@@ -125,7 +141,7 @@ pub fn bake(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, watch: &dyn Watch
         energy: solution.energy.into(),
         backface_share: gathered.mean_back_share,
         hidden_vertices: gathered.is_valid.iter().filter(|valid| !**valid).count(),
-        seconds,
+        seconds: clock.seconds,
     };
     Ok(Bake { baked, report, solution, mesh })
 }

@@ -3,6 +3,7 @@
 use glam::DVec3;
 use serde::Serialize;
 
+use super::Method;
 use super::settings::Quality;
 use super::watch::Seconds;
 use crate::base::colour::LUMINANCE;
@@ -16,7 +17,7 @@ pub struct Report {
     /// Preset.
     pub quality: Quality,
     /// How form factors were found.
-    pub method: &'static str,
+    pub method: Method,
     /// How the system was solved.
     pub solver: &'static str,
     /// The device.

@@ -1,5 +1,6 @@
 //! Presets that a user need not tune, and the sizes they mean on a given scene.
 
+use super::Method;
 use crate::patch::MeshSettings;
 use crate::radiosity::gather::GatherSettings;
 use crate::radiosity::progressive::ProgressiveSettings;
@@ -25,8 +26,12 @@ pub struct BakeSettings {
     pub quality: Quality,
     /// Longest element edge, metres; none: chosen from the scene's area.
     pub element_size: Option<f32>,
+    /// How form factors are found; none: whatever is faster.
+    pub method: Option<Method>,
     /// Width of the hemicubes that gather, pixels.
     pub hemicube_px: u32,
+    /// Rays of the hemispheres that gather.
+    pub hemisphere_rays: u32,
     /// Share of the first unshot power at which shooting ends.
     pub threshold: f32,
     /// Shots a patch, on average, after which shooting ends.
@@ -39,12 +44,20 @@ pub struct BakeSettings {
     pub points_a_patch: usize,
     /// Error that vertices may make by borrowing gathered light from their neighbourhood.
     pub cache_tolerance: f32,
+    /// Points of an element at which its direct light is found.
+    pub points_an_element: usize,
     /// Rays a place and emitter in penumbrae.
     pub num_penumbra_rays: u32,
 }
 
 /// Width of the hemicubes that shoot: they see patches, not detail.
 pub(super) const SHOOTING_PX: u32 = 64;
+
+/// Rays a point and emitter in penumbrae where only the mean over a patch counts.
+pub(super) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 16;
+
+/// Rays of the hemispheres that shoot.
+pub(super) const SHOOTING_RAYS: u32 = 512;
 
 /// Farthest that gathered light is borrowed from, in element sizes.
 const BORROW_REACH: f32 = 4.0;
@@ -62,34 +75,41 @@ impl BakeSettings {
         let base = Self {
             quality,
             element_size: None,
+            method: None,
             hemicube_px: 64,
+            hemisphere_rays: 1024,
             threshold: 1e-3,
             max_passes: 64,
             target_elements: 40_000.0,
             target_patches: 1_500.0,
             points_a_patch: 2,
             cache_tolerance: 0.1,
+            points_an_element: 2,
             num_penumbra_rays: 64,
         };
         match quality {
             Quality::Draft => Self {
                 hemicube_px: 32,
+                hemisphere_rays: 256,
                 threshold: 1e-2,
                 target_elements: 10_000.0,
                 target_patches: 500.0,
                 points_a_patch: 1,
                 cache_tolerance: 0.2,
+                points_an_element: 1,
                 num_penumbra_rays: 32,
                 ..base
             },
             Quality::Medium => base,
             Quality::High => Self {
                 hemicube_px: 128,
+                hemisphere_rays: 4096,
                 threshold: 3e-4,
                 target_elements: 160_000.0,
                 target_patches: 4_000.0,
                 points_a_patch: 4,
                 cache_tolerance: 0.06,
+                points_an_element: 4,
                 num_penumbra_rays: 256,
                 ..base
             },

@@ -1,4 +1,6 @@
-//! Who watches a bake.
+//! Who watches a bake, and how long its stages take.
+
+use std::time::Instant;
 
 use crate::baked::{BakedScene, VertexLight};
 use crate::base::progress::{Progress, Stage, Unwatched};
@@ -34,18 +36,28 @@ pub struct Seconds {
     pub total: f64,
 }
 
-impl Seconds {
-    /// Adds the time since `start` to a stage and starts anew.
-    pub(super) fn lap(&mut self, stage: Stage, start: &mut std::time::Instant) {
-        let seconds = start.elapsed().as_secs_f64();
-        *start = std::time::Instant::now();
-        self.total += seconds;
+/// Measures the stages as they end.
+pub(super) struct Clock {
+    pub(super) seconds: Seconds,
+    lap_start: Instant,
+}
+
+impl Clock {
+    pub(super) fn start() -> Self {
+        Self { seconds: Seconds::default(), lap_start: Instant::now() }
+    }
+
+    /// Adds the time since the last lap to a stage.
+    pub(super) fn lap(&mut self, stage: Stage) {
+        let seconds = self.lap_start.elapsed().as_secs_f64();
+        self.lap_start = Instant::now();
+        self.seconds.total += seconds;
         match stage {
-            Stage::Load => {}
-            Stage::Mesh => self.mesh += seconds,
-            Stage::Direct => self.direct += seconds,
-            Stage::Solve => self.solve += seconds,
-            Stage::Gather => self.gather += seconds,
+            Stage::Load | Stage::Trace => {}
+            Stage::Mesh => self.seconds.mesh += seconds,
+            Stage::Direct => self.seconds.direct += seconds,
+            Stage::Solve => self.seconds.solve += seconds,
+            Stage::Gather => self.seconds.gather += seconds,
         }
     }
 }

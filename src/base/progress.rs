@@ -16,6 +16,8 @@ pub enum Stage {
     Solve,
     /// Indirect light at the vertices.
     Gather,
+    /// Rays of a picture or a measurement.
+    Trace,
 }
 
 impl Stage {
@@ -28,6 +30,7 @@ impl Stage {
             Stage::Direct => "direct light",
             Stage::Solve => "radiosity",
             Stage::Gather => "vertex light",
+            Stage::Trace => "tracing rays",
         }
     }
 }

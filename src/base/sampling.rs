@@ -45,6 +45,41 @@ pub fn triangle_from_square(square: Vec2) -> Vec3 {
     Vec3::new(1.0 - x - y, x, y)
 }
 
+/// Point of the unit disc, uniformly distributed, from a point of the unit square.
+///
+/// Source: Shirley, Chiu 1997, "A Low Distortion Map Between Disk and Square".
+#[must_use]
+pub fn disc_from_square(square: Vec2) -> Vec2 {
+    let p = 2.0 * square - Vec2::ONE;
+    if p == Vec2::ZERO {
+        return p;
+    }
+    let (radius, eighths) = if p.x.abs() > p.y.abs() { (p.x, p.y / p.x) } else { (p.y, 2.0 - p.x / p.y) };
+    radius * Vec2::from_angle(std::f32::consts::FRAC_PI_4 * eighths)
+}
+
+/// Place of a point of the unit square along a Z-shaped space-filling curve.
+#[must_use]
+pub fn morton_2d(square: Vec2) -> u32 {
+    let spread = |x: f32| {
+        let x = (x * 65_536.0) as u32;
+        let x = (x | x << 8) & 0x00ff_00ff;
+        let x = (x | x << 4) & 0x0f0f_0f0f;
+        let x = (x | x << 2) & 0x3333_3333;
+        (x | x << 1) & 0x5555_5555
+    };
+    spread(square.x) | spread(square.y) << 1
+}
+
+/// Unit direction round `normal`, as likely as its cosine, from a point of the unit square; the density is cosine / pi.
+#[must_use]
+pub fn cosine_hemisphere(normal: Vec3, square: Vec2) -> Vec3 {
+    let (tangent, bitangent) = tangent_frame(normal);
+    let (sin, cos) = (std::f32::consts::TAU * square.y).sin_cos();
+    let radius = square.x.sqrt();
+    tangent * (radius * cos) + bitangent * (radius * sin) + normal * (1.0 - square.x).sqrt()
+}
+
 /// Unit vectors `(tangent, bitangent)` that make a right-handed frame with the unit vector `normal`.
 ///
 /// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
@@ -75,6 +110,14 @@ mod tests {
             assert!((t.cross(b) - n).length() < 1e-5);
             assert!(t.dot(b).abs() < 1e-5 && (t.length() - 1.0).abs() < 1e-5);
         }
+    }
+
+    #[test]
+    fn disc_samples_fill_rings_by_their_area() {
+        let disc: Vec<Vec2> = (0..4096).map(|i| disc_from_square(r2(i, 2))).collect();
+        let share = |radius: f32| disc.iter().filter(|p| p.length() < radius).count() as f32 / 4096.0;
+        assert!((share(0.5) - 0.25).abs() < 3e-3 && share(1.0 + 1e-6) == 1.0);
+        assert!(disc.iter().sum::<Vec2>().length() / 4096.0 < 2e-3);
     }
 
     #[test]

@@ -5,11 +5,10 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use super::bake_options::{BakeOptions, bake_watched, load, positive};
+use super::bake_options::{BakeOptions, bake_device, bake_watched, load, positive};
 use crate::bake::{BakeSettings, Report};
 use crate::baked;
 use crate::base::output::write_whole;
-use crate::gpu::Gpu;
 
 /// Options of `hemicube bake`.
 #[derive(Args, Debug)]
@@ -40,10 +39,10 @@ pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
         bail!("{}: a bake is written as .glb", args.output.display());
     }
     let scene = load(&args.scene)?;
-    let gpu = Gpu::headless()?;
     let preset = args.bake.settings();
     let settings = BakeSettings { threshold: args.threshold.unwrap_or(preset.threshold), ..preset };
-    let bake = bake_watched(&gpu, &scene, &settings, is_quiet)?;
+    let gpu = bake_device(&settings)?;
+    let bake = bake_watched(gpu.as_ref(), &scene, &settings, is_quiet)?;
     baked::gltf::write(&args.output, &bake.baked, 0.0)?;
     if let Some(path) = &args.report {
         write_report(path, &bake.report)?;

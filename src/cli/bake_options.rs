@@ -1,15 +1,12 @@
 //! Options of every subcommand that may have to bake, and the way from a file to a lit scene.
 
-use std::io::IsTerminal;
 use std::path::Path;
-use std::sync::Arc;
 
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
-use crate::bake::{Bake, BakeSettings, Quality, bake};
+use crate::bake::{Bake, BakeSettings, Method, Quality, bake};
 use crate::baked::{self, BakedScene};
-use crate::base::progress::Cancel;
 use crate::gpu::Gpu;
 use crate::scene::{Scene, builtin, gltf};
 
@@ -27,6 +24,10 @@ pub struct BakeOptions {
     /// Width of the gathering hemicubes in pixels, a power of two from 16 to 512 [default: 32, 64 or 128 by preset].
     #[arg(long, value_name = "PX", value_parser = hemicube_size)]
     pub hemicube_size: Option<u32>,
+    /// How form factors are found: hemicubes need a GPU or its software driver, hemispheres (rays) need none [default: the
+    /// faster one here].
+    #[arg(long, value_enum, value_name = "METHOD")]
+    pub method: Option<MethodName>,
     /// Ends after this many shots a patch on average [default: 64].
     #[arg(long, value_name = "N")]
     pub passes: Option<usize>,
@@ -43,6 +44,15 @@ pub enum QualityName {
     High,
 }
 
+/// Methods as written on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum MethodName {
+    /// Item buffers drawn by the GPU.
+    Hemicube,
+    /// Rays on the CPU.
+    Hemisphere,
+}
+
 impl BakeOptions {
     /// The settings that the options mean.
     #[must_use]
@@ -55,6 +65,10 @@ impl BakeOptions {
         BakeSettings {
             element_size: self.element_size,
             hemicube_px: self.hemicube_size.unwrap_or(preset.hemicube_px),
+            method: self.method.map(|method| match method {
+                MethodName::Hemicube => Method::Hemicube,
+                MethodName::Hemisphere => Method::Hemisphere,
+            }),
             max_passes: self.passes.unwrap_or(preset.max_passes),
             ..preset
         }
@@ -88,15 +102,30 @@ pub fn load(path: &Path) -> Result<Scene> {
     }
 }
 
+/// The device that a bake shall draw hemicubes with; none where there is none and the bake can do without.
+///
+/// # Errors
+/// Hemicubes were asked for and no driver answers.
+pub fn bake_device(settings: &BakeSettings) -> Result<Option<Gpu>> {
+    if settings.method == Some(Method::Hemisphere) {
+        return Ok(None);
+    }
+    match Gpu::headless() {
+        Ok(gpu) => Ok(Some(gpu)),
+        Err(error) if settings.method.is_none() => {
+            log::warn!("{error}; form factors come from rays instead");
+            Ok(None)
+        }
+        Err(error) => Err(error.into()),
+    }
+}
+
 /// Bakes with progress on the terminal; Ctrl-C ends it after the current batch and keeps what is solved.
 ///
 /// # Errors
 /// The scene cannot be baked.
-pub fn bake_watched(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, is_quiet: bool) -> Result<Bake> {
-    let cancel = Arc::new(Cancel::default());
-    let on_interrupt = Arc::clone(&cancel);
-    ctrlc::set_handler(move || on_interrupt.cancel()).context("Ctrl-C cannot be caught")?;
-    let watch = TerminalWatch::new(cancel, !is_quiet && std::io::stderr().is_terminal());
+pub fn bake_watched(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, is_quiet: bool) -> Result<Bake> {
+    let watch = TerminalWatch::interruptible(is_quiet)?;
     let finished = bake(gpu, scene, settings, &watch)?;
     watch.finish();
     for note in &scene.notes {
@@ -109,7 +138,7 @@ pub fn bake_watched(gpu: &Gpu, scene: &Scene, settings: &BakeSettings, is_quiet:
 ///
 /// # Errors
 /// The scene cannot be baked.
-pub fn lit_scene(gpu: &Gpu, scene: Scene, settings: &BakeSettings, is_quiet: bool) -> Result<BakedScene> {
+pub fn lit_scene(gpu: Option<&Gpu>, scene: Scene, settings: &BakeSettings, is_quiet: bool) -> Result<BakedScene> {
     match baked::gltf::from_scene(scene) {
         Ok(baked) => Ok(baked),
         Err(scene) => Ok(bake_watched(gpu, &scene, settings, is_quiet)?.baked),

@@ -3,6 +3,8 @@
 pub mod bake;
 pub mod bake_options;
 pub mod info;
+pub mod measure;
+pub mod ray_options;
 pub mod render;
 pub mod shadow_options;
 mod terminal;
@@ -44,6 +46,8 @@ pub enum Command {
     Bake(bake::BakeArgs),
     /// Draw a picture of a scene, with the light stored in the file or baked now.
     Render(render::RenderArgs),
+    /// Find the irradiance at given points.
+    Measure(measure::MeasureArgs),
     /// Tell what is in a scene and what the mesh doctor finds.
     Info(info::InfoArgs),
 }
@@ -74,6 +78,7 @@ pub fn run(cli: &Cli) -> Result<()> {
     match &cli.command {
         Some(Command::Bake(args)) => bake::run(args, cli.verbosity.is_quiet()),
         Some(Command::Render(args)) => render::run(args, cli.verbosity.is_quiet()),
+        Some(Command::Measure(args)) => measure::run(args, cli.verbosity.is_quiet()),
         Some(Command::Info(args)) => info::run(args),
         None => view::run(&cli.view),
     }

@@ -6,12 +6,13 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 
-use super::bake_options::{BakeOptions, lit_scene, load, positive};
+use super::bake_options::{BakeOptions, bake_device, lit_scene, load, positive};
+use super::ray_options::{RayOptions, RendererName};
 use super::shadow_options::{ShadowOptions, compare_shadows};
 use crate::baked::{self, BakedScene, VertexLight};
 use crate::gpu::Gpu;
 use crate::render::picture::check_size;
-use crate::render::{Exposure, FileKind, Look, Picture, Raster, compare, picture};
+use crate::render::{Exposure, FileKind, Look, Picture, Raster, compare, develop, picture};
 use crate::scene::{Camera, Scene};
 
 /// Options of `hemicube render`.
@@ -33,9 +34,12 @@ pub struct RenderArgs {
     /// Displayed = radiance x 2^EV; auto meters the picture.
     #[arg(long, value_name = "EV|auto", default_value = "auto", value_parser = exposure, allow_negative_numbers = true)]
     pub exposure: Exposure,
-    /// Which light is shown.
-    #[arg(long, value_enum, value_name = "MODE", default_value = "radiosity")]
-    pub lighting: Lighting,
+    /// Which light is shown [default: radiosity; indirect+direct with --renderer two-pass].
+    #[arg(long, value_enum, value_name = "MODE")]
+    pub lighting: Option<Lighting>,
+    /// How the picture is made.
+    #[command(flatten)]
+    pub rays: RayOptions,
     /// Compares the picture with this one (.png or .exr) and fails where they differ too much.
     #[arg(long, value_name = "IMG")]
     pub reference: Option<PathBuf>,
@@ -68,6 +72,16 @@ pub enum Lighting {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size(pub [u32; 2]);
 
+impl RenderArgs {
+    fn lighting(&self) -> Lighting {
+        let default = match self.rays.renderer {
+            RendererName::Raster => Lighting::Radiosity,
+            RendererName::TwoPass | RendererName::Path => Lighting::IndirectAndDirect,
+        };
+        self.lighting.unwrap_or(default)
+    }
+}
+
 /// Draws, writes and compares.
 ///
 /// # Errors
@@ -76,19 +90,40 @@ pub struct Size(pub [u32; 2]);
 pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
     // What can be refused at once is refused before the bake.
     FileKind::of(&args.output)?;
+    if args.shadows.shadows.is_some() && args.rays.renderer != RendererName::Raster {
+        bail!("--shadows is for the raster renderer; rays find their own shadows");
+    }
     let reference = args.reference.as_deref().map(Raster::load).transpose()?;
     let scene = load(&args.scene)?;
     let camera = choose_camera(&scene, args.camera.as_deref())?;
-    let gpu = Gpu::headless()?;
-    check_size(&gpu, args.size.0)?;
-
     if let Some(techniques) = args.shadows.compared()? {
+        let gpu = Gpu::headless()?;
+        check_size(&gpu, args.size.0)?;
         return compare_shadows(&gpu, unbaked(scene), &camera, args.size.0, &techniques, &args.output);
     }
-    let baked = light(&gpu, scene, args, is_quiet)?;
-    let picture = picture(&gpu, &baked, &camera, args.size.0, &look(args, &baked))?;
+    let picture = match args.rays.renderer {
+        RendererName::Raster => drawn(scene, &camera, args, is_quiet)?,
+        RendererName::TwoPass => {
+            let baked = first_pass(scene, args, is_quiet)?;
+            let look = look(args, &baked);
+            let film = args.rays.two_pass(&baked, &camera, args.size.0, args.lighting(), look.ambient, is_quiet)?;
+            develop(film.size, film.radiance, &look)
+        }
+        RendererName::Path => {
+            let film = args.rays.path_traced(&scene, &camera, args.size.0, args.lighting(), is_quiet)?;
+            develop(film.size, film.radiance, &Look { exposure: args.exposure, ..Look::default() })
+        }
+    };
     picture.save(&args.output)?;
     reference.map_or(Ok(()), |reference| judge(&picture, &reference, args, is_quiet))
+}
+
+/// A picture drawn by the GPU.
+fn drawn(scene: Scene, camera: &Camera, args: &RenderArgs, is_quiet: bool) -> Result<Picture> {
+    let gpu = Gpu::headless()?;
+    check_size(&gpu, args.size.0)?;
+    let baked = light(&gpu, scene, args, is_quiet)?;
+    Ok(picture(&gpu, &baked, camera, args.size.0, &look(args, &baked))?)
 }
 
 /// The camera of that name, else of that number; without a wish the first, else one that sees everything.
@@ -106,27 +141,40 @@ fn choose_camera(scene: &Scene, wanted: Option<&str>) -> Result<Camera> {
 
 /// The scene with the light that is to be shown.
 fn light(gpu: &Gpu, scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
-    let needs_no_bake = match args.lighting {
+    let needs_no_bake = match args.lighting() {
         Lighting::Ambient => true,
         Lighting::Direct => args.shadows.shadows.is_some(),
         Lighting::Radiosity | Lighting::IndirectAndDirect => false,
     };
-    if needs_no_bake { Ok(unbaked(scene)) } else { lit_scene(gpu, scene, &args.bake.settings(), is_quiet) }
+    if needs_no_bake { Ok(unbaked(scene)) } else { lit_scene(Some(gpu), scene, &args.bake.settings(), is_quiet) }
+}
+
+/// The scene with the light that the second pass does not trace.
+fn first_pass(scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
+    match (baked::gltf::from_scene(scene), args.lighting()) {
+        (Ok(baked), _) => Ok(baked),
+        (Err(scene), Lighting::Direct | Lighting::Ambient) => Ok(dark(scene)),
+        (Err(scene), _) => {
+            let settings = args.bake.settings();
+            lit_scene(bake_device(&settings)?.as_ref(), scene, &settings, is_quiet)
+        }
+    }
 }
 
 /// The scene with the light it stores, else with none.
 fn unbaked(scene: Scene) -> BakedScene {
-    baked::gltf::from_scene(scene).unwrap_or_else(|scene| BakedScene {
-        light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()),
-        scene,
-    })
+    baked::gltf::from_scene(scene).unwrap_or_else(dark)
+}
+
+fn dark(scene: Scene) -> BakedScene {
+    BakedScene { light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()), scene }
 }
 
 fn look(args: &RenderArgs, baked: &BakedScene) -> Look {
     let all = Look { exposure: args.exposure, shadows: args.shadows.settings(), ..Look::default() };
     // Ambient light takes the place of the stored light; shadows bring direct light of their own.
     let shadowed = f32::from(u8::from(all.shadows.is_some()));
-    match args.lighting {
+    match args.lighting() {
         Lighting::Direct => Look { indirect: 0.0, ..all },
         Lighting::Ambient => Look { direct: shadowed, indirect: 0.0, ambient: mean_radiance(&baked.light), ..all },
         Lighting::Radiosity | Lighting::IndirectAndDirect => all,

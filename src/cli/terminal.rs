@@ -1,8 +1,9 @@
-//! Progress of a bake on the terminal.
+//! Progress of long work on the terminal.
 
-use std::sync::Arc;
-use std::sync::Mutex;
+use std::io::IsTerminal;
+use std::sync::{Arc, Mutex, OnceLock};
 
+use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::bake::Watch;
@@ -27,6 +28,21 @@ impl TerminalWatch {
             ProgressStyle::with_template("{msg:>12} {wide_bar:.cyan/dim} {percent:>3} % {elapsed:>4}, {eta} left");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
         Self { cancel, bar, stage: Mutex::new(None) }
+    }
+
+    /// A watch that ends the work at Ctrl-C, which is heard by all watches of the process, and draws on a terminal unless
+    /// `is_quiet`.
+    ///
+    /// # Errors
+    /// Ctrl-C cannot be caught.
+    pub fn interruptible(is_quiet: bool) -> Result<Self> {
+        static CANCEL: OnceLock<Arc<Cancel>> = OnceLock::new();
+        let is_first = CANCEL.get().is_none();
+        let cancel = CANCEL.get_or_init(Arc::default);
+        if is_first {
+            ctrlc::set_handler(|| cancel.cancel()).context("Ctrl-C cannot be caught")?;
+        }
+        Ok(Self::new(Arc::clone(cancel), !is_quiet && std::io::stderr().is_terminal()))
     }
 
     /// Takes the bar away.

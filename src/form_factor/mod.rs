@@ -6,6 +6,7 @@
 
 pub mod analytic;
 pub mod hemicube;
+pub mod hemisphere;
 
 use std::sync::OnceLock;
 

@@ -20,8 +20,8 @@ const BLEND: f32 = 2.0;
 struct Record {
     position: Vec3,
     normal: Vec3,
-    /// Harmonic mean distance of the surfaces seen, metres.
-    distance: f32,
+    /// Farthest that it is good for within the tolerance, metres.
+    radius: f32,
     site: u32,
 }
 
@@ -42,10 +42,12 @@ impl IrradianceCache {
         Self { tolerance, cell: max_radius, max_radius, records: HashMap::new() }
     }
 
-    /// Enters a known site that sees surfaces at harmonic mean distance `distance`.
-    pub fn insert(&mut self, viewpoint: &Viewpoint, distance: f32, site: u32) {
-        let record = Record { position: viewpoint.position, normal: viewpoint.normal, distance, site };
-        let radius = BLEND * self.radius(distance);
+    /// Enters a known site that sees surfaces at harmonic mean distance `distance`, the nearest at `nearest`: it is good
+    /// for no place beyond that one, which may be under a shelf that the site sees from outside.
+    pub fn insert(&mut self, viewpoint: &Viewpoint, distance: f32, nearest: f32, site: u32) {
+        let radius = (distance * self.tolerance).min(self.max_radius).min(nearest / BLEND);
+        let record = Record { position: viewpoint.position, normal: viewpoint.normal, radius, site };
+        let radius = BLEND * radius;
         let low = ((viewpoint.position - radius) / self.cell).floor().as_ivec3();
         let high = ((viewpoint.position + radius) / self.cell).floor().as_ivec3();
         for x in low.x..=high.x {
@@ -84,15 +86,11 @@ impl IrradianceCache {
 
     fn error(&self, record: &Record, viewpoint: &Viewpoint) -> Option<f32> {
         let offset = viewpoint.position - record.position;
-        let error = offset.length() * self.tolerance / self.radius(record.distance)
+        let error = offset.length() * self.tolerance / record.radius
             + (1.0 - viewpoint.normal.dot(record.normal)).max(0.0).sqrt();
         // A place in front of the record may be hidden from what the record sees.
         let height = offset.dot(viewpoint.normal + record.normal) * 0.5;
-        (error < BLEND * self.tolerance && height.abs() < 0.5 * self.radius(record.distance)).then_some(error)
-    }
-
-    fn radius(&self, distance: f32) -> f32 {
-        (distance * self.tolerance).min(self.max_radius)
+        (error < BLEND * self.tolerance && height.abs() < 0.5 * record.radius).then_some(error)
     }
 }
 
@@ -113,8 +111,8 @@ mod tests {
     #[test]
     fn a_place_between_two_records_borrows_from_both() {
         let mut cache = IrradianceCache::new(0.2, 1.0);
-        cache.insert(&viewpoint(0.0, Vec3::Y), 1.0, 7);
-        cache.insert(&viewpoint(0.2, Vec3::Y), 1.0, 8);
+        cache.insert(&viewpoint(0.0, Vec3::Y), 1.0, 1.0, 7);
+        cache.insert(&viewpoint(0.2, Vec3::Y), 1.0, 1.0, 8);
         let found = weights(&cache, &viewpoint(0.1, Vec3::Y));
         assert_eq!(found.iter().map(|(site, _)| *site).collect::<Vec<_>>(), [7, 8]);
         assert!(found.iter().all(|(_, weight)| (weight - 0.5).abs() < 1e-4), "{found:?}");
@@ -123,7 +121,7 @@ mod tests {
     #[test]
     fn nothing_is_borrowed_from_afar_or_round_a_corner() {
         let mut cache = IrradianceCache::new(0.2, 1.0);
-        cache.insert(&viewpoint(0.0, Vec3::Y), 1.0, 7);
+        cache.insert(&viewpoint(0.0, Vec3::Y), 1.0, 1.0, 7);
         assert!(weights(&cache, &viewpoint(0.41, Vec3::Y)).is_empty());
         assert!(weights(&cache, &viewpoint(0.0, Vec3::X)).is_empty());
         assert!(!weights(&cache, &viewpoint(0.39, Vec3::Y)).is_empty());

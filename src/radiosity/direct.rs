@@ -40,6 +40,12 @@ impl<'a> DirectLight<'a> {
         Self { scene, tracer, emitters: emitters(scene, mesh), num_penumbra_rays }
     }
 
+    /// The same lights with another number of rays in penumbrae.
+    #[must_use]
+    pub fn with_rays(self, num_penumbra_rays: u32) -> Self {
+        Self { num_penumbra_rays, ..self }
+    }
+
     /// Direct irradiance `[place][group]` at all viewpoints, lux per channel; zero for those not reached when cancelled.
     pub fn irradiance(&self, viewpoints: &[Viewpoint], progress: &dyn Progress) -> Field {
         let num_groups = self.scene.light_groups.len();

@@ -16,7 +16,7 @@ use crate::form_factor::{FormFactorError, FormFactors, Row, Viewpoint, map_rows}
 use crate::patch::PatchMesh;
 
 /// A site that sees more back faces than this share lies inside something.
-const MAX_BACK_SHARE: f32 = 0.4;
+const MAX_BACK_SHARE: f32 = 0.8;
 
 /// Sites gathered before the cache is asked again.
 const ROUND: usize = 512;
@@ -50,6 +50,8 @@ struct Sight {
     back: f32,
     /// Harmonic mean distance, metres.
     distance: f32,
+    /// Distance of the nearest element, metres.
+    nearest: f32,
 }
 
 /// Gathers the reflected `radiosity` `[e][g]` at all `sites`.
@@ -91,7 +93,7 @@ pub fn gather(
         for ((&site, viewpoint), sight) in chosen.iter().zip(&viewpoints).zip(&sights) {
             gathered.enter(site as usize, sight);
             if sight.back <= MAX_BACK_SHARE && settings.tolerance > 0.0 {
-                cache.insert(viewpoint, sight.distance, site);
+                cache.insert(viewpoint, sight.distance, sight.nearest, site);
             }
         }
         progress.report(Stage::Gather, next as f32 / order.len() as f32);
@@ -111,21 +113,25 @@ fn scattered_order(num_sites: usize) -> Vec<u32> {
 /// Irradiance, back faces and harmonic mean distance from one row.
 fn see(row: &Row, viewpoint: &Viewpoint, radiosity: &Field, centroids: &[Vec3]) -> Sight {
     let mut irradiance = vec![Vec3::ZERO; radiosity.num_groups()];
-    let (mut inverse_distance, mut seen) = (0.0, 0.0);
+    let (mut inverse_distance, mut seen, mut nearest) = (0.0, 0.0, f32::MAX);
     for entry in &row.entries {
         let element = entry.element.index();
         for (sum, &radiosity) in irradiance.iter_mut().zip(radiosity.at(element)) {
             *sum += entry.factor * radiosity;
         }
-        inverse_distance += entry.factor * centroids[element].distance(viewpoint.position).recip();
+        let distance = centroids[element].distance(viewpoint.position);
+        inverse_distance += entry.factor * distance.recip();
+        nearest = distance.min(nearest);
         seen += entry.factor;
     }
     let distance = if inverse_distance > 0.0 { seen / inverse_distance } else { f32::MAX };
-    Sight { irradiance, back: row.back, distance }
+    Sight { irradiance, back: row.back, distance, nearest }
 }
 
 impl Gathered {
-    fn nothing(num_sites: usize, num_groups: usize) -> Self {
+    /// No site is known.
+    #[must_use]
+    pub fn nothing(num_sites: usize, num_groups: usize) -> Self {
         Self {
             indirect: Field::zero(num_sites, num_groups),
             is_valid: vec![true; num_sites],

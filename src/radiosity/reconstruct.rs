@@ -7,9 +7,6 @@ use crate::baked::{BakedScene, GroupLight, VertexLight};
 use crate::patch::PatchMesh;
 use crate::scene::{Instance, Scene, Triangle};
 
-/// Passes of filling in: a site is hidden at most this many elements deep.
-const MAX_FILL_PASSES: usize = 16;
-
 /// The elements of `mesh` as a scene, still dark.
 #[must_use]
 pub fn dark_scene(scene: &Scene, mesh: &PatchMesh) -> BakedScene {
@@ -82,37 +79,16 @@ pub fn average(mesh: &PatchMesh, on_elements: &Field) -> Field {
     sums
 }
 
-/// Mean over the three corners of each element.
-#[must_use]
-pub fn on_elements(mesh: &PatchMesh, at_light_vertices: &Field) -> Field {
-    let mut field = Field::zero(mesh.elements.len(), at_light_vertices.num_groups());
-    for (e, element) in mesh.elements.iter().enumerate() {
-        for l in mesh.light_vertices_of(element) {
-            for (sum, &value) in field.at_mut(e).iter_mut().zip(at_light_vertices.at(l)) {
-                *sum += value / 3.0;
-            }
-        }
-    }
-    field
-}
-
-/// Gives light vertices inside or behind something the mean of their valid neighbours along the mesh, ring by ring.
+/// Gives light vertices inside or behind something the mean of their valid neighbours along the mesh.
+///
+/// Those that have none are never seen and stay as they are.
 pub fn fill_hidden(mesh: &PatchMesh, is_valid: &[bool], fields: [&mut Field; 2]) {
     let [direct, indirect] = fields;
-    let mut is_known = is_valid.to_vec();
-    is_known.resize(mesh.light_vertices.len(), false);
-    for _ in 0..MAX_FILL_PASSES {
-        let reached = neighbour_sums(mesh, &is_known, direct, indirect);
-        if reached.is_empty() {
-            break;
-        }
-        for (l, sums) in reached {
-            is_known[l] = true;
-            let num_groups = direct.num_groups();
-            for g in 0..num_groups {
-                direct.at_mut(l)[g] = sums.values[g] / sums.count;
-                indirect.at_mut(l)[g] = sums.values[num_groups + g] / sums.count;
-            }
+    let num_groups = direct.num_groups();
+    for (l, sums) in neighbour_sums(mesh, is_valid, direct, indirect) {
+        for g in 0..num_groups {
+            direct.at_mut(l)[g] = sums.values[g] / sums.count;
+            indirect.at_mut(l)[g] = sums.values[num_groups + g] / sums.count;
         }
     }
 }
@@ -125,7 +101,7 @@ struct NeighbourSums {
 
 fn neighbour_sums(
     mesh: &PatchMesh,
-    is_known: &[bool],
+    is_valid: &[bool],
     direct: &Field,
     indirect: &Field,
 ) -> std::collections::BTreeMap<usize, NeighbourSums> {
@@ -134,11 +110,11 @@ fn neighbour_sums(
     for element in &mesh.elements {
         let corners = mesh.light_vertices_of(element);
         for (k, &l) in corners.iter().enumerate() {
-            if is_known[l] {
+            if is_valid[l] {
                 continue;
             }
             for neighbour in [corners[(k + 1) % 3], corners[(k + 2) % 3]] {
-                if is_known[neighbour] {
+                if is_valid[neighbour] {
                     let sums = reached
                         .entry(l)
                         .or_insert_with(|| NeighbourSums { values: vec![Vec3::ZERO; 2 * num_groups], count: 0.0 });

@@ -3,8 +3,9 @@
 use glam::Vec3;
 
 use crate::base::ids::ElementId;
+use crate::base::sampling::{hash, r2, triangle_from_square};
 use crate::form_factor::Viewpoint;
-use crate::patch::{Patch, PatchMesh};
+use crate::patch::{Element, Patch, PatchMesh};
 use crate::scene::{Scene, normal_of};
 
 /// Height of a viewpoint above its surface, as a share of the scene's extent: far above rounding, far below detail.
@@ -49,25 +50,46 @@ impl Sites {
         sum_of_centroids.iter().enumerate().map(site).collect()
     }
 
+    /// `num_points` viewpoints on each element, side by side, with its geometric normal.
+    #[must_use]
+    pub fn of_elements(&self, mesh: &PatchMesh, num_points: usize) -> Vec<Viewpoint> {
+        let on_element = |(e, element): (usize, &Element)| {
+            let corners = mesh.corners(element);
+            let normal = normal_of(corners);
+            (0..num_points as u32).map(move |i| {
+                let weights = triangle_from_square(r2(i, e as u32));
+                let position = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+                self.viewpoint(position, normal, hash(e as u32) ^ i)
+            })
+        };
+        mesh.elements.iter().enumerate().flat_map(on_element).collect()
+    }
+
     /// `num_points` viewpoints spread over a patch by area.
     #[must_use]
     pub fn of_patch(&self, mesh: &PatchMesh, patch: &Patch, num_points: usize) -> Vec<Viewpoint> {
         let members = mesh.members_of(patch);
-        (0..num_points)
+        if num_points == 1 {
+            let central = most_central(mesh, members);
+            let element = &mesh.elements[central.index()];
+            return vec![self.viewpoint(mesh.centroid(element), normal_of(mesh.corners(element)), central.0)];
+        }
+        (0..num_points as u32)
             .map(|i| {
-                let element = if num_points == 1 {
-                    most_central(mesh, members)
-                } else {
-                    at_area(mesh, members, patch.area * (i as f32 + 0.5) / num_points as f32)
-                };
+                let stratum = patch.area * (i as f32 + 0.5) / num_points as f32;
+                let element = at_area(mesh, members, stratum);
                 let corners = mesh.corners(&mesh.elements[element.index()]);
-                let centroid = (corners[0] + corners[1] + corners[2]) / 3.0;
-                self.viewpoint(centroid, normal_of(corners), element.0)
+                let seed = hash(element.0) ^ i;
+                let weights = triangle_from_square(r2(i, element.0));
+                let position = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+                self.viewpoint(position, normal_of(corners), seed)
             })
             .collect()
     }
 
-    fn viewpoint(&self, position: Vec3, normal: Vec3, seed: u32) -> Viewpoint {
+    /// A viewpoint just above a place on a surface.
+    #[must_use]
+    pub fn viewpoint(&self, position: Vec3, normal: Vec3, seed: u32) -> Viewpoint {
         Viewpoint { position: position + normal * self.height, normal, seed }
     }
 }

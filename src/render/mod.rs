@@ -6,6 +6,7 @@
 //! Deliberately absent: a render graph, a scene tree, view-dependent light; light comes from the vertices.
 
 pub mod compare;
+pub mod develop;
 pub mod frame;
 pub mod look;
 pub mod picture;
@@ -18,6 +19,7 @@ mod surface;
 mod tonemap;
 
 pub use compare::{Difference, Raster, compare};
+pub use develop::develop;
 pub use frame::Renderer;
 pub use look::{Exposure, Look, Shading, ToneMap};
 pub use picture::{FileKind, Picture, picture, picture_in_light, picture_of, save_display};

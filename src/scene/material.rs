@@ -204,6 +204,12 @@ impl Default for Material {
 pub struct SurfacePoint {
     /// Diffuse reflectance per channel, at most [`MAX_REFLECTANCE`].
     pub reflectance: Vec3,
+    /// Reflectance of the metal's sheen where it is met head-on (base colour x metallic); no part of radiosity.
+    pub metal: Vec3,
+    /// 0 mirror .. 1 rough.
+    pub roughness: f32,
+    /// Linear base colour.
+    pub base_colour: Vec3,
     /// Emitted radiance, nit per channel.
     pub emission: Vec3,
     /// Share of light that is stopped: 1 solid, 0 hole; MASK is already decided.
@@ -222,16 +228,25 @@ impl Material {
     pub fn at(&self, textures: &[Texture], uv: [Vec2; 2], colour: Vec4) -> SurfacePoint {
         let fetch = |slot: &TextureSlot| textures[slot.texture.index()].sample_srgb(slot.coordinate(uv));
         let base = self.base_colour_texture.as_ref().map_or(Vec4::ONE, fetch) * self.base_colour * colour;
-        let metallic = self.metallic_roughness_texture.as_ref().map_or(self.metallic, |slot| {
-            self.metallic * textures[slot.texture.index()].sample_linear(slot.coordinate(uv)).z
-        });
-        let reflectance = if self.unlit {
-            Vec3::ZERO
-        } else {
-            (base.truncate() * (1.0 - metallic)).clamp(Vec3::ZERO, Vec3::splat(MAX_REFLECTANCE))
+        let finish = self
+            .metallic_roughness_texture
+            .as_ref()
+            .map_or(Vec4::ONE, |slot| textures[slot.texture.index()].sample_linear(slot.coordinate(uv)));
+        let (metallic, roughness) = (self.metallic * finish.z, self.roughness * finish.y);
+        let base_colour = base.truncate();
+        let reflecting = |share: f32| {
+            let share = if self.unlit { 0.0 } else { share };
+            (base_colour * share).clamp(Vec3::ZERO, Vec3::splat(MAX_REFLECTANCE))
         };
         let emission = self.emission * self.emissive_texture.as_ref().map_or(Vec3::ONE, |slot| fetch(slot).truncate());
-        SurfacePoint { reflectance, emission, opacity: self.opacity(base.w) }
+        SurfacePoint {
+            reflectance: reflecting(1.0 - metallic),
+            metal: reflecting(metallic),
+            roughness,
+            base_colour,
+            emission,
+            opacity: self.opacity(base.w),
+        }
     }
 
     fn opacity(&self, alpha: f32) -> f32 {

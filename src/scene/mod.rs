@@ -16,8 +16,8 @@ use std::ops::Range;
 use glam::{Vec2, Vec3, Vec4};
 
 pub use camera::{Camera, Projection};
-pub use light::{Light, LightKind};
-pub use material::{AlphaMode, Image, MAX_REFLECTANCE, Material, Sampler, Texture, TextureSlot, Wrap};
+pub use light::{Arrival, Light, LightKind};
+pub use material::{AlphaMode, Image, MAX_REFLECTANCE, Material, Sampler, SurfacePoint, Texture, TextureSlot, Wrap};
 
 use crate::base::ids::{InstanceId, MaterialId, TriangleId};
 
@@ -105,6 +105,16 @@ impl Scene {
     #[must_use]
     pub fn material_of(&self, triangle: TriangleId) -> &Material {
         &self.materials[self.triangles[triangle.index()].material.index()]
+    }
+
+    /// What the surface is at a point of a triangle, given by the weights of its corners.
+    #[must_use]
+    pub fn surface_at(&self, triangle: TriangleId, weights: Vec3) -> SurfacePoint {
+        let corners = self.triangles[triangle.index()].vertices.map(|v| &self.vertices[v as usize]);
+        let [a, b, c] = corners;
+        let uv = [0, 1].map(|set| a.uv[set] * weights.x + b.uv[set] * weights.y + c.uv[set] * weights.z);
+        let colour = a.colour * weights.x + b.colour * weights.y + c.colour * weights.z;
+        self.material_of(triangle).at(&self.textures, uv, colour)
     }
 
     /// Smallest box round all vertices, or a unit box where there are none.

@@ -1,34 +1,29 @@
-//! A bounding volume hierarchy over the scene's triangles.
-//!
-//! Source: Ylitie, Karras, Laine 2017 (the eight-wide tree, from the `obvhs` crate); Möller, Trumbore 1997 (triangles).
+//! Rays through a scene: the triangles of its tree, with their alpha.
 
 use glam::{Vec3, Vec3A};
-use obvhs::BvhBuildParams;
-use obvhs::cwbvh::{CwBvh, builder::build_cwbvh_from_tris};
-use obvhs::ray::{Ray, RayHit};
-use obvhs::triangle::Triangle as BvhTriangle;
 
+use super::wide::{Probe, WideTree};
 use crate::base::ids::TriangleId;
-use crate::scene::{AlphaMode, Scene};
+use crate::scene::{AlphaMode, Scene, edge_cross};
 
 /// Answers ray queries on one scene. Backs of double-sided triangles that a bake wrote out are not in the tree.
 pub struct Tracer<'a> {
     scene: &'a Scene,
-    tree: CwBvh,
-    /// In the order of the tree's leaves.
+    tree: WideTree,
+    /// In the order in which the tree numbers its triangles.
     leaves: Vec<Leaf>,
 }
 
-/// A triangle as the intersection test wants it.
+/// A triangle of the tree.
 #[derive(Clone, Copy)]
 struct Leaf {
-    corner: Vec3A,
-    edge_1: Vec3A,
-    edge_2: Vec3A,
     triangle: TriangleId,
     /// Every ray that meets it ends: no alpha to look up.
     is_opaque: bool,
 }
+
+/// Share of light below which nothing passes.
+const DARK: f32 = 1e-3;
 
 /// What a ray meets first.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,29 +44,17 @@ impl<'a> Tracer<'a> {
     /// Cost: about a microsecond a triangle.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
-        let ids: Vec<TriangleId> =
-            (0..scene.triangles.len()).filter(|&t| !scene.triangles[t].is_back_side).map(TriangleId::new).collect();
-        let corners = |id| scene.corners(id).map(Vec3A::from);
-        let triangles: Vec<BvhTriangle> = ids
-            .iter()
-            .map(|&id| {
-                let [v0, v1, v2] = corners(id);
-                BvhTriangle { v0, v1, v2 }
-            })
-            .collect();
-        let mut build_time = std::time::Duration::default();
-        let tree = build_cwbvh_from_tris(&triangles, BvhBuildParams::medium_build(), &mut build_time);
-        let leaves = tree
-            .primitive_indices
-            .iter()
-            .map(|&at| {
-                let triangle = ids[at as usize];
-                let [v0, v1, v2] = corners(triangle);
+        let all = (0..scene.triangles.len()).map(TriangleId::new);
+        let leaves: Vec<Leaf> = all
+            .filter(|t| !scene.triangles[t.index()].is_back_side)
+            .map(|triangle| {
                 let is_opaque = scene.material_of(triangle).alpha_mode == AlphaMode::Opaque;
-                Leaf { corner: v0, edge_1: v1 - v0, edge_2: v2 - v0, triangle, is_opaque }
+                Leaf { triangle, is_opaque }
             })
             .collect();
-        Self { scene, tree, leaves }
+        let corners: Vec<[Vec3A; 3]> =
+            leaves.iter().map(|leaf| scene.corners(leaf.triangle).map(Vec3A::from)).collect();
+        Self { scene, tree: WideTree::new(&corners), leaves }
     }
 
     /// The scene that is traced.
@@ -84,72 +67,66 @@ impl<'a> Tracer<'a> {
     /// surfaces that blend count as solid from half opacity on.
     #[must_use]
     pub fn nearest(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Option<Hit> {
-        let ray = Ray::new(origin.into(), direction.into(), 0.0, max_distance);
-        let mut found = RayHit::none();
-        self.tree.ray_traverse(ray, &mut found, |ray, at| match self.leaves[at].intersect(ray) {
-            Some((distance, u, v)) if self.opacity_at(&self.leaves[at], u, v) >= 0.5 => distance,
-            _ => f32::INFINITY,
+        self.nearest_solid(origin, direction, max_distance, |_| 0.5)
+    }
+
+    /// The nearest surface as [`Tracer::nearest`] finds it, where each triangle has its own smallest opacity, above 0,
+    /// that counts as solid: drawn evenly from 0..1, it lets a surface pass the right share of all rays.
+    #[must_use]
+    pub fn nearest_solid(
+        &self,
+        origin: Vec3,
+        direction: Vec3,
+        max_distance: f32,
+        solid_from: impl Fn(TriangleId) -> f32,
+    ) -> Option<Hit> {
+        let mut found = None;
+        self.tree.visit(&mut Probe::new(origin, direction, max_distance), |probe, quad| {
+            let met = quad.meet(probe);
+            for lane in lanes(met.lanes) {
+                let leaf = &self.leaves[quad.triangles[lane] as usize];
+                let (distance, u, v) = (met.distance[lane], met.u[lane], met.v[lane]);
+                let is_nearer = distance < probe.reach;
+                if is_nearer && (leaf.is_opaque || self.opacity_at(leaf, u, v) >= solid_from(leaf.triangle)) {
+                    probe.reach = distance;
+                    found = Some((leaf.triangle, u, v, distance));
+                }
+            }
+            true
         });
-        if found.t >= max_distance {
-            return None;
-        }
-        let leaf = &self.leaves[found.primitive_id as usize];
-        let (distance, u, v) = leaf.intersect(&ray)?;
-        let normal = leaf.edge_1.cross(leaf.edge_2);
-        Some(Hit {
-            distance,
-            triangle: leaf.triangle,
-            barycentric: Vec3::new(1.0 - u - v, u, v),
-            is_front: normal.dot(ray.direction) < 0.0,
-        })
+        let (triangle, u, v, distance) = found?;
+        let is_front = edge_cross(self.scene.corners(triangle)).dot(direction) < 0.0;
+        Some(Hit { distance, triangle, barycentric: Vec3::new(1.0 - u - v, u, v), is_front })
     }
 
     /// Share of light that passes along `direction` up to `max_distance`: 0 behind anything opaque, the product of
     /// 1 - alpha behind surfaces that blend.
     #[must_use]
     pub fn transmittance(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> f32 {
-        let ray = Ray::new(origin.into(), direction.into(), 0.0, max_distance);
         let mut passing = 1.0;
-        let is_clear = self.tree.ray_traverse_miss(ray, |ray, at| match self.leaves[at].intersect(ray) {
-            Some((distance, u, v)) => {
-                passing *= 1.0 - self.opacity_at(&self.leaves[at], u, v);
-                if passing < 1e-3 { distance } else { f32::INFINITY }
+        self.tree.visit(&mut Probe::new(origin, direction, max_distance), |probe, quad| {
+            let met = quad.meet(probe);
+            for lane in lanes(met.lanes) {
+                let leaf = &self.leaves[quad.triangles[lane] as usize];
+                passing *= if leaf.is_opaque { 0.0 } else { 1.0 - self.opacity_at(leaf, met.u[lane], met.v[lane]) };
             }
-            None => f32::INFINITY,
+            passing >= DARK
         });
-        if is_clear { passing } else { 0.0 }
+        if passing >= DARK { passing } else { 0.0 }
     }
 
     fn opacity_at(&self, leaf: &Leaf, u: f32, v: f32) -> f32 {
-        if leaf.is_opaque {
-            return 1.0;
-        }
-        let scene = self.scene;
-        let [a, b, c] = scene.triangles[leaf.triangle.index()].vertices.map(|v| &scene.vertices[v as usize]);
-        let weights = [1.0 - u - v, u, v];
-        let uv = [0, 1].map(|set| a.uv[set] * weights[0] + b.uv[set] * weights[1] + c.uv[set] * weights[2]);
-        let colour = a.colour * weights[0] + b.colour * weights[1] + c.colour * weights[2];
-        scene.material_of(leaf.triangle).at(&scene.textures, uv, colour).opacity
+        self.scene.surface_at(leaf.triangle, Vec3::new(1.0 - u - v, u, v)).opacity
     }
 }
 
-impl Leaf {
-    /// Distance along the ray and the barycentric weights of the second and third corner.
-    fn intersect(&self, ray: &Ray) -> Option<(f32, f32, f32)> {
-        let p = ray.direction.cross(self.edge_2);
-        let determinant = self.edge_1.dot(p);
-        if determinant == 0.0 {
-            return None;
-        }
-        let inverse = 1.0 / determinant;
-        let from_corner = ray.origin - self.corner;
-        let u = from_corner.dot(p) * inverse;
-        let q = from_corner.cross(self.edge_1);
-        let v = ray.direction.dot(q) * inverse;
-        let distance = self.edge_2.dot(q) * inverse;
-        let is_inside = u >= 0.0 && v >= 0.0 && u + v <= 1.0;
-        (is_inside && distance >= ray.tmin && distance < ray.tmax).then_some((distance, u, v))
-    }
+/// Numbers of the bits that are set.
+fn lanes(mut bits: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let lane = bits.trailing_zeros() as usize;
+        bits &= bits.wrapping_sub(1);
+        (lane < 4).then_some(lane)
+    })
 }
 
 #[cfg(test)]
@@ -197,6 +174,17 @@ mod tests {
         assert!(!from_below.is_front && (from_below.distance - 5.0).abs() < 1e-5);
         assert!(tracer.nearest(Vec3::new(1.3, 0.4, 5.0), Vec3::NEG_Z, 100.0).is_none());
         assert!(tracer.nearest(Vec3::new(0.3, 0.4, 5.0), Vec3::NEG_Z, 2.9).is_none());
+    }
+
+    #[test]
+    fn rays_along_an_axis_meet_flat_boxes_whatever_the_sign_of_zero() {
+        let scene = squares(&[0.0], AlphaMode::Opaque, 1.0);
+        let tracer = Tracer::new(&scene);
+        for zeros in [[0.0, 0.0], [-0.0, 0.0], [0.0, -0.0], [-0.0, -0.0]] {
+            let direction = Vec3::new(zeros[0], zeros[1], -1.0);
+            assert!(tracer.nearest(Vec3::new(0.3, 0.4, 1e-3), direction, 2e-3).is_some(), "{direction}");
+            assert_eq!(tracer.transmittance(Vec3::new(0.3, 0.4, 1e-3), direction, 2e-3), 0.0, "{direction}");
+        }
     }
 
     #[test]

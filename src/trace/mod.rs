@@ -3,5 +3,6 @@
 //! Used for direct light, the hemisphere method, collision in the viewer and ray-traced truth.
 
 pub mod bvh;
+mod wide;
 
 pub use bvh::{Hit, Tracer};

@@ -238,7 +238,7 @@ impl Runner {
 
     fn bake(&self, scene: &Scene, settings: &BakeSettings) -> anyhow::Result<()> {
         let gpu = Gpu::headless()?;
-        let done = bake(&gpu, scene, settings, self)?;
+        let done = bake(Some(&gpu), scene, settings, self)?;
         log::info!("the bake has ended");
         if let Some(mesh) = self.mesh.get() {
             mesh.set_light(&self.gpu, &done.baked.light);

@@ -1,7 +1,8 @@
 //! Small scenes with known answers.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Quat, Vec2, Vec3, Vec4};
 use hemicube::base::ids::{GroupId, InstanceId, MaterialId};
+use hemicube::base::sampling::{hash, unit_float};
 use hemicube::scene::{Instance, Light, LightKind, Material, Scene, Triangle, Vertex};
 
 /// A scene that grows by quadrilaterals.
@@ -62,6 +63,20 @@ impl SceneBuilder {
         }
     }
 
+    /// A box turned by `turn` about its centre, seen from outside.
+    pub fn block(&mut self, centre: Vec3, half: Vec3, turn: Quat, material: MaterialId) {
+        let p = |x: f32, y: f32, z: f32| centre + turn * (half * Vec3::new(x, y, z));
+        let sides = [
+            [p(-1., -1., -1.), p(1., -1., -1.), p(1., -1., 1.), p(-1., -1., 1.)],
+            [p(-1., 1., -1.), p(-1., 1., 1.), p(1., 1., 1.), p(1., 1., -1.)],
+            [p(-1., -1., -1.), p(-1., -1., 1.), p(-1., 1., 1.), p(-1., 1., -1.)],
+            [p(1., -1., -1.), p(1., 1., -1.), p(1., 1., 1.), p(1., -1., 1.)],
+            [p(-1., -1., -1.), p(-1., 1., -1.), p(1., 1., -1.), p(1., -1., -1.)],
+            [p(-1., -1., 1.), p(1., -1., 1.), p(1., 1., 1.), p(-1., 1., 1.)],
+        ];
+        sides.into_iter().for_each(|side| self.quad(side, material));
+    }
+
     /// A point light of group `group`.
     pub fn point_light(&mut self, position: Vec3, intensity: Vec3, group: u32) {
         let kind = LightKind::Point { position };
@@ -80,5 +95,20 @@ pub fn furnace(reflectance: Vec3, exitance: Vec3) -> Scene {
     let mut builder = SceneBuilder::default();
     let wall = builder.material(reflectance, exitance);
     builder.room(Vec3::ZERO, Vec3::ONE, [wall; 6]);
+    builder.build(1)
+}
+
+/// A closed room of seven blocks that stand, lean and overlap by chance, lit by its ceiling.
+pub fn cluttered_room(seed: u32) -> Scene {
+    let mut builder = SceneBuilder::default();
+    let grey = builder.material(Vec3::splat(0.5), Vec3::ZERO);
+    let lamp = builder.material(Vec3::splat(0.5), Vec3::ONE);
+    builder.room(Vec3::ZERO, Vec3::new(4.0, 3.0, 5.0), [grey, lamp, grey, grey, grey, grey]);
+    for i in 0..7 {
+        let random = |k: u32| unit_float(hash(hash(seed) ^ (i * 16 + k)));
+        let centre = Vec3::new(0.6 + 2.8 * random(0), 0.6 + 1.8 * random(1), 0.6 + 3.8 * random(2));
+        let half = Vec3::new(0.05 + 0.4 * random(3), 0.05 + 0.4 * random(4), 0.05 + 0.4 * random(5));
+        builder.block(centre, half, Quat::from_rotation_y(6.0 * random(6)) * Quat::from_rotation_x(random(7)), grey);
+    }
     builder.build(1)
 }

@@ -1,0 +1,84 @@
+//! Irradiance at points: what a lux meter would show.
+//!
+//! Direct light is asked for at the point itself; indirect light is gathered over the stored solution, which is sharper than
+//! the vertices round the point.
+
+use glam::Vec3;
+
+use super::settings::Quality;
+use crate::baked::BakedScene;
+use crate::base::progress::Progress;
+use crate::form_factor::Viewpoint;
+use crate::patch::PatchMesh;
+use crate::radiosity::direct::DirectLight;
+use crate::radiosity::sites::Sites;
+use crate::raytrace::{MeasuringPoint, gathered_irradiance, stored_irradiance};
+use crate::scene::Scene;
+use crate::trace::Tracer;
+
+/// Irradiance at a point, lux per channel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// All of it.
+    pub total: Vec3,
+    /// The part that comes straight from lights.
+    pub direct: Vec3,
+}
+
+/// How closely is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MeasureSettings {
+    /// Rays a point that gather indirect light.
+    pub num_rays: u32,
+    /// Rays a point and emitter in penumbrae.
+    pub num_penumbra_rays: u32,
+}
+
+impl MeasureSettings {
+    /// The values of a preset.
+    #[must_use]
+    pub fn preset(quality: Quality) -> Self {
+        let num_rays = match quality {
+            Quality::Draft => 1024,
+            Quality::Medium => 4096,
+            Quality::High => 16384,
+        };
+        Self { num_rays, num_penumbra_rays: num_rays / 4 }
+    }
+}
+
+/// Measures at `points` in a scene whose light is `baked`. None where it was cancelled.
+///
+/// `scene` and its `mesh` are those that were baked, or the bake's own elements: direct light is asked of them.
+#[must_use]
+pub fn measure(
+    scene: &Scene,
+    mesh: &PatchMesh,
+    baked: &BakedScene,
+    points: &[MeasuringPoint],
+    settings: &MeasureSettings,
+    progress: &dyn Progress,
+) -> Option<Vec<Measured>> {
+    let sites = Sites::new(scene);
+    let viewpoint = |(seed, point): (usize, &MeasuringPoint)| -> Viewpoint {
+        sites.viewpoint(point.position, point.normal.normalize_or_zero(), seed as u32)
+    };
+    let viewpoints: Vec<Viewpoint> = points.iter().enumerate().map(viewpoint).collect();
+    let tracer = Tracer::new(scene);
+    let direct = DirectLight::new(scene, mesh, &tracer, settings.num_penumbra_rays).irradiance(&viewpoints, progress);
+    let elements = Tracer::new(&baked.scene);
+    let indirect = gathered_irradiance(&elements, baked, points, settings.num_rays, progress)?;
+    let measured = |(at, indirect)| {
+        let direct = if direct.num_groups() > 0 { direct.total(at) } else { Vec3::ZERO };
+        Measured { total: direct + indirect, direct }
+    };
+    Some(indirect.into_iter().enumerate().map(measured).collect())
+}
+
+/// The light that is stored at the vertices round each point; none where a point lies on no surface.
+#[must_use]
+pub fn look_up(baked: &BakedScene, points: &[MeasuringPoint]) -> Vec<Option<Measured>> {
+    let tracer = Tracer::new(&baked.scene);
+    let measured = |(direct, indirect)| Measured { total: direct + indirect, direct };
+    stored_irradiance(&tracer, baked, points).into_iter().map(|found| found.map(measured)).collect()
+}

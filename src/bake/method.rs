@@ -1,0 +1,76 @@
+//! Which way of finding form factors suits a scene and a device.
+
+use super::BakeError;
+use super::settings::{BakeSettings, SHOOTING_PX, SHOOTING_RAYS};
+use crate::form_factor::FormFactors;
+use crate::form_factor::hemicube::Hemicubes;
+use crate::form_factor::hemisphere::Hemispheres;
+use crate::gpu::Gpu;
+use crate::patch::PatchMesh;
+use crate::trace::Tracer;
+
+/// How form factors are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Method {
+    /// Item buffers drawn by the GPU.
+    Hemicube,
+    /// Cosine-distributed rays on the CPU.
+    Hemisphere,
+}
+
+impl Method {
+    /// The faster one: a graphics card draws hemicubes faster than rays are traced, a driver that draws on the CPU does not.
+    #[must_use]
+    pub fn fastest(gpu: Option<&Gpu>) -> Self {
+        match gpu {
+            Some(gpu) if !gpu.is_software() => Self::Hemicube,
+            _ => Self::Hemisphere,
+        }
+    }
+}
+
+/// What form factors are asked of: a device that draws hemicubes, else rays.
+#[derive(Clone, Copy)]
+pub(super) struct Seer<'a> {
+    gpu: Option<&'a Gpu>,
+    mesh: &'a PatchMesh,
+    tracer: &'a Tracer<'a>,
+}
+
+impl<'a> Seer<'a> {
+    /// Sees by `method`.
+    ///
+    /// # Errors
+    /// Hemicubes are wanted and there is no device.
+    pub(super) fn new(
+        method: Method,
+        gpu: Option<&'a Gpu>,
+        mesh: &'a PatchMesh,
+        tracer: &'a Tracer<'a>,
+    ) -> Result<Self, BakeError> {
+        let gpu = match method {
+            Method::Hemicube => Some(gpu.ok_or(BakeError::NoDevice)?),
+            Method::Hemisphere => None,
+        };
+        Ok(Self { gpu, mesh, tracer })
+    }
+
+    /// Coarse form factors: shooters see patches, not detail.
+    pub(super) fn shooting(self) -> Box<dyn FormFactors + 'a> {
+        self.with(SHOOTING_PX, SHOOTING_RAYS)
+    }
+
+    /// Form factors for the light that is shown.
+    pub(super) fn gathering(self, settings: &BakeSettings) -> Box<dyn FormFactors + 'a> {
+        self.with(settings.hemicube_px, settings.hemisphere_rays)
+    }
+
+    /// Hemicubes `size_px` pixels wide on a device, else hemispheres of `num_rays` rays.
+    fn with(self, size_px: u32, num_rays: u32) -> Box<dyn FormFactors + 'a> {
+        match self.gpu {
+            Some(gpu) => Box::new(Hemicubes::new(gpu, self.tracer.scene(), self.mesh, size_px)),
+            None => Box::new(Hemispheres::new(self.tracer, self.mesh, num_rays)),
+        }
+    }
+}

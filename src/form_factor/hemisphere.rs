@@ -1,0 +1,114 @@
+//! Form factors by the hemisphere method: Nusselt's analogue with rays, on the CPU alone.
+//!
+//! Rays leave the viewpoint with the density of the cosine, so that each is worth the same: 1/N. That is the projection of
+//! the hemisphere on to its base circle, sampled. The directions are one table for all viewpoints, turned about the normal
+//! of each; they stand along a space-filling curve, so that neighbouring rays meet the same triangles.
+//!
+//! Source: Nusselt 1928, "Graphische Bestimmung des Winkelverhältnisses bei der Wärmestrahlung"; Malley 1988 (rays);
+//! Shirley, Chiu 1997 (the map from the square to the disc).
+
+use glam::Vec2;
+use rayon::prelude::*;
+
+use super::{Entry, FormFactorError, FormFactors, Row, Viewpoint};
+use crate::base::ids::TriangleId;
+use crate::base::sampling::{disc_from_square, hash, morton_2d, r2, tangent_frame, unit_float};
+use crate::patch::PatchMesh;
+use crate::trace::{Hit, Tracer};
+
+/// Viewpoints between two looks at whether to go on.
+const BATCH: usize = 256;
+
+/// Finds form factors of one scene by rays.
+pub struct Hemispheres<'a> {
+    tracer: &'a Tracer<'a>,
+    mesh: &'a PatchMesh,
+    /// Points of the unit disc, evenly distributed.
+    disc: Vec<Vec2>,
+}
+
+impl<'a> Hemispheres<'a> {
+    /// Hemispheres of `num_rays` rays over the scene of `tracer`, cut as `mesh`.
+    #[must_use]
+    pub fn new(tracer: &'a Tracer<'a>, mesh: &'a PatchMesh, num_rays: u32) -> Self {
+        let mut squares: Vec<Vec2> = (0..num_rays.max(1)).map(|i| r2(i, 0)).collect();
+        squares.sort_by_key(|square| morton_2d(*square));
+        Self { tracer, mesh, disc: squares.into_iter().map(disc_from_square).collect() }
+    }
+
+    /// Standard error of a form factor found as `factor`, if its rays were independent; evenly spread rays do better.
+    #[must_use]
+    pub fn standard_error(factor: f64, num_rays: f64) -> f64 {
+        // One hit and one miss more: an object that no ray met need not be absent (Agresti, Coull 1998).
+        let share = (factor * num_rays + 1.0) / (num_rays + 2.0);
+        (share * (1.0 - share) / num_rays).sqrt()
+    }
+
+    fn see(&self, viewpoint: &Viewpoint, row: &mut Row) {
+        row.entries.clear();
+        let share = 1.0 / self.disc.len() as f32;
+        let (mut num_back, mut num_sky) = (0, 0);
+        let (tangent, bitangent) = tangent_frame(viewpoint.normal);
+        let (sin, cos) = (unit_float(hash(viewpoint.seed)) * std::f32::consts::TAU).sin_cos();
+        let (x, y) = (tangent * cos + bitangent * sin, bitangent * cos - tangent * sin);
+        for (i, disc) in self.disc.iter().enumerate() {
+            let height = (1.0 - disc.length_squared()).max(0.0).sqrt();
+            let direction = x * disc.x + y * disc.y + viewpoint.normal * height;
+            let seed = viewpoint.seed ^ hash(i as u32);
+            // A pane stops a ray with the probability of its opacity.
+            let solid_from = |triangle: TriangleId| 1.0 - unit_float(hash(seed ^ hash(triangle.0)));
+            match self.tracer.nearest_solid(viewpoint.position, direction, f32::INFINITY, solid_from) {
+                None => num_sky += 1,
+                Some(hit) => match self.entry(&hit, share) {
+                    None => num_back += 1,
+                    Some(entry) => add(&mut row.entries, entry),
+                },
+            }
+        }
+        row.back = num_back as f32 * share;
+        row.sky = num_sky as f32 * share;
+    }
+
+    /// The element that was hit; none on the back of a single-sided surface.
+    fn entry(&self, hit: &Hit, factor: f32) -> Option<Entry> {
+        let root = self.mesh.roots[hit.triangle.index()];
+        let mut element = self.mesh.element_at(hit.triangle, hit.barycentric);
+        if !hit.is_front {
+            if !root.has_backs {
+                return None;
+            }
+            element.0 += root.num_elements;
+        }
+        Some(Entry { element, factor })
+    }
+}
+
+/// Appends an entry, or adds it to the last where neighbouring rays met one element.
+fn add(entries: &mut Vec<Entry>, entry: Entry) {
+    match entries.last_mut() {
+        Some(last) if last.element == entry.element => last.factor += entry.factor,
+        _ => entries.push(entry),
+    }
+}
+
+impl FormFactors for Hemispheres<'_> {
+    fn rows(
+        &mut self,
+        viewpoints: &[Viewpoint],
+        go_on: &dyn Fn() -> bool,
+        take: &(dyn Fn(usize, &Row) + Sync),
+    ) -> Result<usize, FormFactorError> {
+        let mut done = 0;
+        for batch in viewpoints.chunks(BATCH) {
+            if !go_on() {
+                break;
+            }
+            batch.par_iter().enumerate().for_each_init(Row::default, |row, (i, viewpoint)| {
+                self.see(viewpoint, row);
+                take(done + i, row);
+            });
+            done += batch.len();
+        }
+        Ok(done)
+    }
+}

@@ -1,0 +1,262 @@
+//! Path tracing: unbiased light along a ray, the truth that the other methods are judged by.
+//!
+//! At every diffuse surface light is sampled twice: at the lamps (next-event estimation) and by the path itself; each
+//! lamp's light is shared between the two by the power heuristic. Punctual lights can only be aimed at; mirrors and panes
+//! only be followed.
+//!
+//! Sources: Kajiya 1986, "The Rendering Equation"; Veach 1997, "Robust Monte Carlo Methods for Light Transport
+//! Simulation", chapter 9.
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::Vec3;
+
+use super::lights::Lights;
+use super::sampler::Sampler;
+use super::surface::Surface;
+use crate::base::ids::TriangleId;
+use crate::base::sampling::{hash, unit_float};
+use crate::scene::{AlphaMode, Arrival, Scene};
+use crate::trace::{Hit, Tracer};
+
+/// Height of a ray's origin above its surface, as a share of the scene's extent: above rounding, below detail.
+const HEIGHT: f32 = 1e-5;
+
+/// Reflections after which a path may end by chance.
+const MIN_BOUNCES: u32 = 4;
+
+/// Follows paths through a scene.
+pub(super) struct PathTracer<'a> {
+    pub tracer: &'a Tracer<'a>,
+    pub lights: Lights<'a>,
+    max_bounces: u32,
+    has_specular: bool,
+    height: f32,
+    has_blending: bool,
+}
+
+/// A ray, and how its direction came about.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ray {
+    pub origin: Vec3,
+    /// Unit vector.
+    pub direction: Vec3,
+    pub chance: Chance,
+}
+
+/// How a direction came about.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Chance {
+    /// It is the eye's, which sees through the backs of single-sided surfaces, into a room from outside.
+    Eye,
+    /// Nothing else looks for lamps in this direction.
+    Only,
+    /// Lamps are sampled too, from a surface with this normal; density per steradian.
+    Among { normal: Vec3, density: f32 },
+}
+
+/// Radiance that arrives along a ray.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Arriving {
+    /// From the surface that the ray meets.
+    pub emitted: Vec3,
+    /// Reflected there.
+    pub reflected: Vec3,
+}
+
+impl<'a> PathTracer<'a> {
+    pub(super) fn new(tracer: &'a Tracer<'a>, max_bounces: u32, has_specular: bool) -> Self {
+        let scene = tracer.scene();
+        let (low, high) = scene.bounds();
+        Self {
+            tracer,
+            lights: Lights::new(scene),
+            max_bounces,
+            has_specular,
+            height: HEIGHT * (high - low).max_element(),
+            has_blending: scene.materials.iter().any(|material| material.alpha_mode == AlphaMode::Blend),
+        }
+    }
+
+    pub(super) fn scene(&self) -> &'a Scene {
+        self.tracer.scene()
+    }
+
+    /// A point moved off its surface.
+    pub(super) fn above(&self, point: Vec3, normal: Vec3) -> Vec3 {
+        point + normal * self.height
+    }
+
+    /// What the ray meets; surfaces that blend are met as often as they are opaque.
+    pub(super) fn meet(&self, ray: &Ray, sampler: &mut Sampler) -> Option<Hit> {
+        let mut hit = self.nearest(ray.origin, ray.direction, sampler)?;
+        while matches!(ray.chance, Chance::Eye) && !hit.is_front && !self.scene().material_of(hit.triangle).double_sided
+        {
+            let passed = hit.distance + self.height;
+            hit = self.nearest(ray.origin + passed * ray.direction, ray.direction, sampler)?;
+            hit.distance += passed;
+        }
+        Some(hit)
+    }
+
+    fn nearest(&self, origin: Vec3, direction: Vec3, sampler: &mut Sampler) -> Option<Hit> {
+        if !self.has_blending {
+            return self.tracer.nearest(origin, direction, f32::INFINITY);
+        }
+        let bits = sampler.bits();
+        // Never 0: what is a hole must not be met.
+        let solid_from = |triangle: TriangleId| 1.0 - unit_float(hash(bits ^ hash(triangle.0)));
+        self.tracer.nearest_solid(origin, direction, f32::INFINITY, solid_from)
+    }
+
+    /// Radiance that arrives along a ray from the eye, estimated by one path; none from the open.
+    pub(super) fn seen(&self, ray: Ray, sampler: &mut Sampler) -> Option<Vec3> {
+        let hit = self.meet(&ray, sampler)?;
+        let light = self.arriving_from(ray, Some(hit), sampler);
+        Some(light.emitted + light.reflected)
+    }
+
+    /// Radiance that arrives along a ray, estimated by one path.
+    pub(super) fn arriving(&self, ray: Ray, sampler: &mut Sampler) -> Arriving {
+        let hit = self.meet(&ray, sampler);
+        self.arriving_from(ray, hit, sampler)
+    }
+
+    /// Radiance that arrives along a ray from what it has met.
+    fn arriving_from(&self, mut ray: Ray, mut met: Option<Hit>, sampler: &mut Sampler) -> Arriving {
+        let mut light = Arriving::default();
+        let mut throughput = Vec3::ONE;
+        for bounce in 0.. {
+            let Some(hit) = met else { break };
+            let surface = Surface::at(self.scene(), &ray, &hit, self.has_specular);
+            if surface.emission != Vec3::ZERO {
+                let emitted = throughput * surface.emission * self.path_share(&ray, &hit);
+                *(if bounce == 0 { &mut light.emitted } else { &mut light.reflected }) += emitted;
+            }
+            if bounce == self.max_bounces {
+                break;
+            }
+            light.reflected += throughput * self.direct_beside_path(&surface, sampler);
+            let Some(scattered) = surface.scatter(sampler) else { break };
+            throughput *= scattered.throughput;
+            let chance = match scattered.diffuse_density {
+                Some(density) => Chance::Among { normal: surface.normal, density },
+                None => Chance::Only,
+            };
+            ray = self.onward(&surface, scattered.direction, chance);
+            if bounce >= MIN_BOUNCES && !survives(&mut throughput, sampler) {
+                break;
+            }
+            met = self.meet(&ray, sampler);
+        }
+        light
+    }
+
+    /// The ray that goes on from a surface.
+    pub(super) fn onward(&self, surface: &Surface, direction: Vec3, chance: Chance) -> Ray {
+        let side = surface.geometric * direction.dot(surface.geometric).signum();
+        Ray { origin: self.above(surface.position, side), direction, chance }
+    }
+
+    /// Share of the emission of what a ray has met that the path accounts for; the rest is sampled at the lamps.
+    pub(super) fn path_share(&self, ray: &Ray, hit: &Hit) -> f32 {
+        match ray.chance {
+            Chance::Eye | Chance::Only => 1.0,
+            Chance::Among { normal, density } => {
+                let at_lamps = self.lights.density(ray.origin, normal, ray.direction, hit.triangle, hit.distance);
+                power_heuristic(density, at_lamps)
+            }
+        }
+    }
+
+    /// Radiance towards the viewer of light straight from the lights: from every punctual one, and from one place on an
+    /// emissive triangle.
+    pub(super) fn direct(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+        let place = self.above(surface.position, surface.geometric);
+        let punctual: Vec3 = self.lights.punctual(place).map(|arrival| self.reflected(surface, place, &arrival)).sum();
+        punctual + self.reflected_of_emitters(surface, place, |_| 0.0, sampler)
+    }
+
+    /// As [`Self::direct`], from one of the punctual lights, and without the share of the emissive triangles that falls to
+    /// the path.
+    fn direct_beside_path(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+        let place = self.above(surface.position, surface.geometric);
+        let mut radiance = Vec3::ZERO;
+        if self.lights.has_punctual()
+            && let Some((arrival, probability)) = self.lights.choose_punctual(place, surface.normal, sampler)
+        {
+            radiance += self.reflected(surface, place, &arrival) / probability;
+        }
+        radiance + self.reflected_of_emitters(surface, place, |direction| surface.diffuse_density(direction), sampler)
+    }
+
+    /// Radiance towards the viewer of a punctual light, with its highlight and its shadow.
+    fn reflected(&self, surface: &Surface, place: Vec3, arrival: &Arrival) -> Vec3 {
+        let cosine = surface.normal.dot(arrival.to_light);
+        if cosine <= 0.0 || arrival.to_light.dot(surface.geometric) <= 0.0 {
+            return Vec3::ZERO;
+        }
+        let mut share = surface.reflectance * (FRAC_1_PI * cosine);
+        if let Some(specular) = &surface.specular {
+            share += specular.highlight(surface.to_viewer, arrival.to_light);
+        }
+        let unhidden = share * arrival.irradiance;
+        if unhidden == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        unhidden * self.tracer.transmittance(place, arrival.to_light, arrival.distance)
+    }
+
+    /// Radiance towards the viewer of the emissive triangles, reflected diffusely.
+    fn reflected_of_emitters(
+        &self,
+        surface: &Surface,
+        place: Vec3,
+        path_density: impl Fn(Vec3) -> f32,
+        sampler: &mut Sampler,
+    ) -> Vec3 {
+        if !self.lights.has_emitters() || surface.reflectance == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        let irradiance = self.emitter_irradiance(place, surface.normal, surface.geometric, path_density, sampler);
+        surface.reflectance * FRAC_1_PI * irradiance
+    }
+
+    /// Irradiance from the emissive triangles on a surface with this shading normal and this geometric one, by one sample,
+    /// without the share that falls to a path whose direction has the `path_density`.
+    pub(super) fn emitter_irradiance(
+        &self,
+        place: Vec3,
+        normal: Vec3,
+        geometric: Vec3,
+        path_density: impl Fn(Vec3) -> f32,
+        sampler: &mut Sampler,
+    ) -> Vec3 {
+        let Some(sample) = self.lights.sample_emitter(place, normal, sampler) else {
+            return Vec3::ZERO;
+        };
+        if geometric.dot(sample.direction) <= 0.0 {
+            return Vec3::ZERO;
+        }
+        let to_lamp = self.above(sample.point, sample.normal) - place;
+        let passing = self.tracer.transmittance(place, to_lamp, 1.0);
+        let share = power_heuristic(sample.density, path_density(sample.direction));
+        sample.radiance * (normal.dot(sample.direction) * passing * share / sample.density)
+    }
+}
+
+/// Share of a sample of density `ours` where `theirs` could have taken it too (Veach 1997, section 9.2).
+fn power_heuristic(ours: f32, theirs: f32) -> f32 {
+    let ratio = theirs / ours;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+/// Russian roulette: a path that carries little ends by chance; one that goes on carries what the ended ones would have.
+pub(super) fn survives(throughput: &mut Vec3, sampler: &mut Sampler) -> bool {
+    let chance = throughput.max_element().min(0.95);
+    let is_alive = sampler.number() < chance;
+    if is_alive {
+        *throughput /= chance;
+    }
+    is_alive
+}

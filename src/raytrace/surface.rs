@@ -1,0 +1,130 @@
+//! What a ray meets: the place, and how light is sent on from there.
+
+use std::f32::consts::FRAC_1_PI;
+
+use glam::Vec3;
+
+use super::path::{Chance, Ray};
+use super::sampler::Sampler;
+use super::specular::Specular;
+use crate::base::colour::luminance;
+use crate::base::ids::TriangleId;
+use crate::base::sampling::cosine_hemisphere;
+use crate::scene::{Scene, edge_cross};
+use crate::trace::Hit;
+
+/// A place that a ray has met, seen from the ray's side.
+#[derive(Clone, Debug)]
+pub(super) struct Surface {
+    pub triangle: TriangleId,
+    /// Weights of the triangle's corners.
+    pub barycentric: Vec3,
+    /// The ray came from the front.
+    pub is_front: bool,
+    pub position: Vec3,
+    /// Geometric unit normal on the ray's side.
+    pub geometric: Vec3,
+    /// Unit normal that diffuse reflection takes its cosine to: the smooth one of what the eye sees, else the geometric.
+    pub normal: Vec3,
+    /// Unit vector back along the ray.
+    pub to_viewer: Vec3,
+    /// Diffuse reflectance; 0 on the back of a single-sided surface.
+    pub reflectance: Vec3,
+    /// Emitted radiance; 0 on the back of a single-sided surface.
+    pub emission: Vec3,
+    /// Metal or glass.
+    pub specular: Option<Specular>,
+}
+
+/// The way on from a surface.
+pub(super) struct Scattered {
+    pub direction: Vec3,
+    /// What the radiance that comes from there is multiplied with.
+    pub throughput: Vec3,
+    /// Density of the direction per steradian where it was a diffuse reflection, whose direct light is sampled apart too.
+    pub diffuse_density: Option<f32>,
+}
+
+impl Surface {
+    /// The surface that `ray` has met at `hit`; without `has_specular` it is what radiosity sees: metals absorb and glass is
+    /// opaque.
+    pub(super) fn at(scene: &Scene, ray: &Ray, hit: &Hit, has_specular: bool) -> Self {
+        let [a, b, c] = scene.corners(hit.triangle);
+        let weights = hit.barycentric;
+        let front = edge_cross([a, b, c]).normalize_or_zero();
+        let material = scene.material_of(hit.triangle);
+        let geometric = if hit.is_front { front } else { -front };
+        let mut surface = Self {
+            triangle: hit.triangle,
+            barycentric: weights,
+            is_front: hit.is_front,
+            position: a * weights.x + b * weights.y + c * weights.z,
+            geometric,
+            normal: geometric,
+            to_viewer: -ray.direction,
+            reflectance: Vec3::ZERO,
+            emission: Vec3::ZERO,
+            specular: None,
+        };
+        if hit.is_front || material.double_sided {
+            let point = scene.surface_at(hit.triangle, weights);
+            surface.emission = point.emission;
+            surface.reflectance = point.reflectance;
+            let smooth = surface.shading_normal(scene);
+            if !matches!(ray.chance, Chance::Among { .. }) {
+                surface.normal = smooth;
+            }
+            if has_specular && !material.unlit {
+                surface.specular = Specular::of(&point, material, smooth);
+                surface.reflectance *= 1.0 - surface.specular.as_ref().map_or(0.0, Specular::clear_share);
+            }
+        }
+        surface
+    }
+
+    /// Interpolated unit normal on the ray's side; the geometric one where the ray would see its back.
+    fn shading_normal(&self, scene: &Scene) -> Vec3 {
+        let [a, b, c] = scene.triangles[self.triangle.index()].vertices.map(|v| scene.vertices[v as usize].normal);
+        let weights = self.barycentric;
+        let smooth = (a * weights.x + b * weights.y + c * weights.z).normalize_or_zero();
+        let smooth = if smooth.dot(self.geometric) < 0.0 { -smooth } else { smooth };
+        if smooth.dot(self.to_viewer) > 0.0 { smooth } else { self.geometric }
+    }
+
+    /// Density per steradian with which [`Self::scatter`] reflects diffusely into a direction.
+    pub(super) fn diffuse_density(&self, direction: Vec3) -> f32 {
+        self.diffuse_share() * self.normal.dot(direction).max(0.0) * FRAC_1_PI
+    }
+
+    /// A way on, or none where all light is absorbed.
+    pub(super) fn scatter(&self, sampler: &mut Sampler) -> Option<Scattered> {
+        let diffuse_share = self.diffuse_share();
+        let is_diffuse = match &self.specular {
+            None if diffuse_share == 0.0 => return None,
+            None => true,
+            Some(_) => sampler.number() < diffuse_share,
+        };
+        if is_diffuse {
+            let direction = cosine_hemisphere(self.normal, sampler.square());
+            let is_outside = direction.dot(self.geometric) > 0.0;
+            return is_outside.then(|| Scattered {
+                direction,
+                throughput: self.reflectance / diffuse_share,
+                diffuse_density: Some(self.diffuse_density(direction)),
+            });
+        }
+        let specular = self.specular.as_ref()?;
+        let (direction, throughput) = specular.scatter(self.to_viewer, self.geometric, sampler)?;
+        Some(Scattered { direction, throughput: throughput / (1.0 - diffuse_share), diffuse_density: None })
+    }
+
+    /// Probability of a diffuse reflection.
+    fn diffuse_share(&self) -> f32 {
+        let diffuse = luminance(self.reflectance);
+        match &self.specular {
+            _ if diffuse <= 0.0 => 0.0,
+            None => 1.0,
+            Some(specular) => diffuse / (diffuse + specular.weight(self.to_viewer)),
+        }
+    }
+}

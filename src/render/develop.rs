@@ -1,0 +1,98 @@
+//! Exposure and tone mapping without a GPU: a picture that rays made, shown as the renderer shows its own.
+//!
+//! The same formulas as shaders/meter.wgsl and shaders/tonemap.wgsl, which a test holds together.
+
+use glam::Vec3;
+
+use super::{Look, Picture, ToneMap};
+use crate::base::colour::{luminance, srgb_from_linear};
+
+/// The constants of shaders/meter.wgsl.
+const NUM_BINS: usize = 256;
+const STEP: usize = 2;
+const DARKEST: f32 = -20.0;
+const BINS_PER_STOP: f32 = 6.4;
+const MIDDLE_GREY: f32 = 0.2;
+const HIGHLIGHT_SHARE: f32 = 0.95;
+const HIGHLIGHT: f32 = 1.5;
+
+/// A picture of `size` pixels from linear radiance before exposure, premultiplied by the fourth channel, the share of the
+/// pixel that is covered.
+#[must_use]
+pub fn develop(size: [u32; 2], radiance: Vec<[f32; 4]>, look: &Look) -> Picture {
+    let exposure = look.fixed_exposure().unwrap_or_else(|| metered(size, &radiance));
+    let display = |(number, &pixel): (usize, &[f32; 4])| {
+        let at = [number as u32 % size[0], number as u32 / size[0]];
+        display_bytes(pixel, at, exposure, look)
+    };
+    let display = radiance.iter().enumerate().flat_map(display).collect();
+    Picture { width: size[0], height: size[1], radiance, display }
+}
+
+/// Factor that shows the picture neither too dark nor burnt out.
+fn metered(size: [u32; 2], radiance: &[[f32; 4]]) -> f32 {
+    let histogram = histogram(size[0] as usize, radiance);
+    let counted = || histogram.iter().enumerate().skip(1);
+    let total: u32 = counted().map(|(_, &pixels)| pixels).sum();
+    if total == 0 {
+        return 1.0;
+    }
+    let log_sum: f32 = counted().map(|(bin, &pixels)| pixels as f32 * log2_of_bin(bin)).sum();
+    let mut below = 0.0;
+    let bright = counted().find(|&(_, &pixels)| {
+        below += pixels as f32;
+        below >= HIGHLIGHT_SHARE * total as f32
+    });
+    let highlight = log2_of_bin(bright.map_or(NUM_BINS - 1, |(bin, _)| bin)).exp2();
+    (MIDDLE_GREY / (log_sum / total as f32).exp2()).min(HIGHLIGHT / highlight)
+}
+
+/// How many pixels have which luminance; bin 0 holds what is dark.
+fn histogram(width: usize, radiance: &[[f32; 4]]) -> [u32; NUM_BINS] {
+    let mut bins = [0; NUM_BINS];
+    for row in radiance.chunks(width).step_by(STEP) {
+        for &[r, g, b, coverage] in row.iter().step_by(STEP).filter(|pixel| pixel[3] > 0.5) {
+            let value = luminance(Vec3::new(r, g, b)) / coverage;
+            let bin = (value.max(1e-30).log2() - DARKEST) * BINS_PER_STOP;
+            bins[bin.clamp(0.0, NUM_BINS as f32 - 1.0) as usize] += 1;
+        }
+    }
+    bins
+}
+
+fn log2_of_bin(bin: usize) -> f32 {
+    (bin as f32 + 0.5) / BINS_PER_STOP + DARKEST
+}
+
+/// RGBA as displayed: exposure, tone curve, background, sRGB, dither.
+fn display_bytes([r, g, b, coverage]: [f32; 4], at: [u32; 2], exposure: f32, look: &Look) -> [u8; 4] {
+    let exposed = Vec3::new(r, g, b) * exposure;
+    let toned = match look.tone_map_in_force() {
+        ToneMap::Linear => exposed.clamp(Vec3::ZERO, Vec3::ONE),
+        ToneMap::Neutral => neutral(exposed),
+    };
+    let shown = toned + (1.0 - coverage) * look.background;
+    let noise = gradient_noise(at);
+    let byte = |channel: f32| (srgb_from_linear(channel) * 255.0 + noise).round() as u8;
+    [byte(shown.x), byte(shown.y), byte(shown.z), 255]
+}
+
+/// Khronos PBR Neutral, as in shaders/tonemap.wgsl.
+fn neutral(colour: Vec3) -> Vec3 {
+    const START: f32 = 0.8;
+    const DESATURATION: f32 = 0.15;
+    let peak = colour.max_element();
+    if peak < START {
+        return colour;
+    }
+    let room = 1.0 - START;
+    let new_peak = 1.0 - room * room / (peak + room - START);
+    let whitening = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
+    (colour * (new_peak / peak)).lerp(Vec3::splat(new_peak), whitening)
+}
+
+/// Interleaved gradient noise in -0.49..0.49, as in shaders/tonemap.wgsl.
+fn gradient_noise([x, y]: [u32; 2]) -> f32 {
+    let pattern = (x as f32 * 0.067_110_56 + y as f32 * 0.005_837_15).fract();
+    (52.982_92 * pattern).fract() * 0.98 - 0.49
+}

@@ -1,0 +1,127 @@
+//! Rows of form factors over random rooms: what must hold for any method, and that the methods agree.
+
+use glam::Vec3;
+use hemicube::form_factor::hemicube::Hemicubes;
+use hemicube::form_factor::hemisphere::Hemispheres;
+use hemicube::form_factor::{FormFactors, Row, Viewpoint, map_rows};
+use hemicube::patch::{MeshSettings, PatchMesh};
+use hemicube::radiosity::sites::Sites;
+use hemicube::scene::Scene;
+use hemicube::trace::Tracer;
+
+use crate::support::device::gpu;
+use crate::support::scenes;
+
+/// A room, cut, and a viewpoint on each of its patches.
+fn room(seed: u32) -> (Scene, PatchMesh, Vec<Viewpoint>) {
+    let scene = scenes::cluttered_room(seed);
+    let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.5, patch_size: 1.0 }).unwrap();
+    let sites = Sites::new(&scene);
+    let viewpoints = mesh.patches.iter().flat_map(|patch| sites.of_patch(&mesh, patch, 1)).collect();
+    (scene, mesh, viewpoints)
+}
+
+fn rows(method: &mut dyn FormFactors, viewpoints: &[Viewpoint]) -> Vec<Row> {
+    map_rows(method, viewpoints, &|| true, |_, row| row.clone()).unwrap()
+}
+
+/// Share of a row that goes to each input triangle.
+fn by_triangle(row: &Row, mesh: &PatchMesh) -> Vec<f32> {
+    let mut shares = vec![0.0; mesh.roots.len()];
+    for entry in &row.entries {
+        shares[mesh.elements[entry.element.index()].triangle.index()] += entry.factor;
+    }
+    shares
+}
+
+/// In a closed room each row is non-negative and whole, and what is not seen of elements is backs, never sky.
+fn assert_whole(rows: &[Row]) {
+    for row in rows {
+        let sum: f32 = row.entries.iter().map(|entry| entry.factor).sum();
+        assert!(row.entries.iter().all(|entry| entry.factor > 0.0));
+        assert!((sum + row.back + row.sky - 1.0).abs() < 1e-4, "{sum} + {} + {}", row.back, row.sky);
+        assert!(row.sky == 0.0, "sky {}", row.sky);
+    }
+}
+
+#[test]
+fn rows_of_both_methods_are_whole_in_closed_rooms() {
+    for seed in 0..4 {
+        let (scene, mesh, viewpoints) = room(seed);
+        let tracer = Tracer::new(&scene);
+        assert_whole(&rows(&mut Hemispheres::new(&tracer, &mesh, 256), &viewpoints));
+        if let Some(gpu) = gpu() {
+            assert_whole(&rows(&mut Hemicubes::new(gpu, &scene, &mesh, 64), &viewpoints));
+        }
+    }
+}
+
+#[test]
+fn hemispheres_and_hemicubes_agree() {
+    let Some(gpu) = gpu() else { return };
+    const NUM_RAYS: u32 = 4096;
+    let (scene, mesh, viewpoints) = room(9);
+    let tracer = Tracer::new(&scene);
+    let by_rays = rows(&mut Hemispheres::new(&tracer, &mesh, NUM_RAYS), &viewpoints);
+    let by_pixels = rows(&mut Hemicubes::new(gpu, &scene, &mesh, 128), &viewpoints);
+    for (rays, pixels) in by_rays.iter().zip(&by_pixels) {
+        for (a, b) in by_triangle(rays, &mesh).into_iter().zip(by_triangle(pixels, &mesh)) {
+            let error = Hemispheres::standard_error(f64::from(b), f64::from(NUM_RAYS)) as f32;
+            assert!((a - b).abs() < 4.0 * error + 1e-3, "{a} and {b}");
+        }
+    }
+}
+
+/// Form factors `[i][j]` between patches, by `num_rays` rays from each of `num_points` points a patch.
+fn between_patches(scene: &Scene, mesh: &PatchMesh, num_points: usize, num_rays: u32) -> Vec<Vec<f64>> {
+    let sites = Sites::new(scene);
+    let of_patch = |patch| sites.of_patch(mesh, patch, num_points);
+    let viewpoints: Vec<Viewpoint> = mesh.patches.iter().flat_map(of_patch).collect();
+    let tracer = Tracer::new(scene);
+    let mut factors = vec![vec![0.0; mesh.patches.len()]; mesh.patches.len()];
+    for (at, row) in rows(&mut Hemispheres::new(&tracer, mesh, num_rays), &viewpoints).iter().enumerate() {
+        for entry in &row.entries {
+            let seen = mesh.elements[entry.element.index()].patch.index();
+            factors[at / num_points][seen] += f64::from(entry.factor) / num_points as f64;
+        }
+    }
+    factors
+}
+
+#[test]
+fn patches_see_each_other_in_the_measure_of_their_areas() {
+    const NUM_POINTS: usize = 16;
+    const NUM_RAYS: u32 = 256;
+    let (scene, mesh, _) = room(3);
+    let factors = between_patches(&scene, &mesh, NUM_POINTS, NUM_RAYS);
+    let exchange = |i: usize, j: usize| {
+        let area = f64::from(mesh.patches[i].area);
+        let error = Hemispheres::standard_error(factors[i][j], f64::from(NUM_RAYS) * NUM_POINTS as f64);
+        (area * factors[i][j], area * error)
+    };
+    // Differences in units of their own standard errors.
+    let deviations = (0..factors.len()).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| {
+        let ((one, one_error), (other, other_error)) = (exchange(i, j), exchange(j, i));
+        (one - other) / one_error.hypot(other_error)
+    });
+    let (sum, count) = deviations.fold((0.0, 0), |(sum, count), z: f64| (sum + z * z, count + 1));
+    let rms = (sum / f64::from(count)).sqrt();
+    assert!(rms < 1.0, "{rms}");
+}
+
+#[test]
+fn a_half_transparent_pane_takes_half_of_the_view() {
+    let mut builder = scenes::SceneBuilder::default();
+    let pane = builder.material(Vec3::splat(0.5), Vec3::ONE);
+    let quad = |z: f32| [(-9.0, -9.0), (-9.0, 9.0), (9.0, 9.0), (9.0, -9.0)].map(|(x, y)| Vec3::new(x, y, z));
+    builder.quad(quad(0.1), pane);
+    let mut scene = builder.build(1);
+    scene.materials[0].base_colour.w = 0.5;
+    scene.materials[0].alpha_mode = hemicube::scene::AlphaMode::Blend;
+    let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 99.0, patch_size: 99.0 }).unwrap();
+    let tracer = Tracer::new(&scene);
+    let viewpoint = Viewpoint { position: Vec3::ZERO, normal: Vec3::Z, seed: 1 };
+    let row = &rows(&mut Hemispheres::new(&tracer, &mesh, 4096), &[viewpoint])[0];
+    let seen: f32 = row.entries.iter().map(|entry| entry.factor).sum();
+    assert!((seen - 0.5).abs() < 0.03 && (row.sky - 0.5).abs() < 0.03, "{seen} and {}", row.sky);
+}
