@@ -118,6 +118,21 @@ impl Stage {
         self
     }
 
+    /// On the device with stored light.
+    fn lit(&self, gpu: &Gpu, light: VertexLight) -> SceneBuffers {
+        SceneBuffers::new(gpu, &BakedScene { scene: self.scene.clone(), light })
+    }
+
+    /// Where the middle of a pixel looks at the floor.
+    fn floor_under(&self, x: u32, y: u32) -> Vec3 {
+        let view = View::from_camera(&self.camera, SIZE[0] as f32 / SIZE[1] as f32);
+        let right = 2.0 * (x as f32 + 0.5) / SIZE[0] as f32 - 1.0;
+        let up = 1.0 - 2.0 * (y as f32 + 0.5) / SIZE[1] as f32;
+        let seen = view.projection_from_world().inverse().project_point3(Vec3::new(right, up, 0.5));
+        let eye = self.camera.position;
+        eye + (seen - eye) * (eye.y / (eye.y - seen.y))
+    }
+
     fn shot(&self, gpu: &Gpu) -> Shot {
         let mut scene = self.scene.clone();
         scene.instances[0].triangles = 0..scene.triangles.len();
@@ -552,20 +567,34 @@ fn soft_shadows_are_the_mean_of_the_rays_to_the_same_points() {
 
 #[test]
 fn direct_light_of_many_samples_is_that_of_the_closed_form() {
-    let Some(gpu) = gpu() else { return };
     let scene = builtin::cornell();
-    let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
-    let baked = BakedScene { scene, light };
     let (floor, normal) = (Vec3::new(4.5, 0.0, 1.0), Vec3::Y);
     let lamp = [[3.43, 2.27], [3.43, 3.32], [2.13, 3.32], [2.13, 2.27]].map(|[x, z]| Vec3::new(x, 5.488, z));
     let factor = hemicube::form_factor::analytic::point_to_polygon(floor, normal, &lamp);
-    let sum: Vec3 = hemicube::render::shadow::light_samples(&baked.scene, 64)
-        .iter()
-        .map(|sample| sample.irradiance(floor, normal))
-        .sum();
+    let samples = hemicube::render::shadow::light_samples(&scene, 64);
+    let sum: Vec3 = samples.iter().map(|sample| sample.irradiance(floor, normal)).sum();
     let expected = Vec3::new(17.0, 12.0, 4.0) * std::f32::consts::PI * factor.abs();
     assert!((sum / expected - 1.0).abs().max_element() < 0.01, "{sum}, not {expected}");
-    let _ = gpu;
+}
+
+#[test]
+fn live_direct_light_takes_the_place_of_the_stored_and_leaves_the_indirect() {
+    let Some(gpu) = gpu() else { return };
+    let stage = Stage::new();
+    let mut light = VertexLight::dark(1, stage.scene.vertices.len());
+    light.groups[0].direct.fill(Vec3::splat(1000.0));
+    light.groups[0].indirect.fill(Vec3::splat(3.0));
+    let shot = Shot { buffers: stage.lit(gpu, light), ..stage.shot(gpu) };
+    let (x, y) = (SIZE[0] / 2, SIZE[1] / 2 + 20);
+    for technique in [ShadowTechnique::VolumeDepthFail, ShadowTechnique::Map, ShadowTechnique::Raytraced] {
+        let picture = shot.picture(gpu, &settings(technique), 4);
+        let found = picture.radiance[(y * SIZE[0] + x) as usize][0];
+        let point = stage.floor_under(x, y);
+        let direct = stage.scene.lights[0].arrival(point);
+        let received = 3.0 + direct.irradiance.x * direct.to_light.y;
+        let expected = 0.5 * (0.1 + received / std::f32::consts::PI);
+        assert!((found / expected - 1.0).abs() < 0.01, "{technique:?}: {found}, not {expected}");
+    }
 }
 
 #[test]

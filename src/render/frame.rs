@@ -66,6 +66,13 @@ impl Renderer {
 
     /// Casters and lights of the scenes that are drawn from now on, for looks that ask for shadows.
     pub fn cast_shadows(&mut self, shadows: Option<Arc<ShadowScene>>) {
+        let is_same = match (&self.shadows, &shadows) {
+            (Some(last), Some(next)) => Arc::ptr_eq(last, next),
+            _ => false,
+        };
+        if let Some(lit) = self.lit.as_mut().filter(|_| !is_same) {
+            lit.light.forget();
+        }
         self.shadows = shadows;
     }
 

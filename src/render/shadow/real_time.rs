@@ -99,6 +99,11 @@ impl RealTimeLight {
         }
     }
 
+    /// Forgets what it keeps from picture to picture: the next is of another scene.
+    pub fn forget(&mut self) {
+        self.volumes.forget();
+    }
+
     /// Records the direct light of a picture of `size` pixels: a texture of irradiance times pre-exposure, with as many
     /// samples a pixel as the picture, with one where it is ray-traced.
     pub fn draw(

@@ -122,6 +122,11 @@ impl ShadowVolumePass {
         }
     }
 
+    /// Forgets the volumes of the last scene.
+    pub fn forget(&mut self) {
+        self.hulls.clear();
+    }
+
     /// Counts the volumes of the light at `place`, in a pass with cleared stencil to which bind groups 0 and 1 are set.
     pub fn draw(
         &self,
