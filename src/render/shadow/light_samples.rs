@@ -229,7 +229,7 @@ mod tests {
         let samples = light_samples(&panel(false), 256);
         assert_eq!(samples.len(), 256);
         let sum: Vec3 = samples.iter().map(|sample| sample.irradiance(Vec3::ZERO, Vec3::Y)).sum();
-        assert!((sum.x / expected - 1.0).abs() < 2e-3, "{sum}, not {expected}");
+        assert!((sum.x / expected - 1.0).abs() < 4e-3, "{sum}, not {expected}");
     }
 
     #[test]
