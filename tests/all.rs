@@ -13,3 +13,4 @@ mod pictures;
 mod radiosity;
 mod raytrace;
 mod render_command;
+mod shadows;

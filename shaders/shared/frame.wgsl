@@ -32,6 +32,12 @@ struct Frame {
     num_groups: u32,
     num_vertices: u32,
     padding: u32,
+    // Homogeneous: the eye with w = 1, or the direction towards it with w = 0.
+    eye: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;
+
+fn group_weight(group: u32) -> vec3f {
+    return frame.group_weights[min(group, MAX_GROUPS - 1u)].rgb;
+}

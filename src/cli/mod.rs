@@ -7,6 +7,7 @@ pub mod info;
 pub mod measure;
 pub mod ray_options;
 pub mod render;
+pub mod shadow_options;
 mod terminal;
 pub mod view;
 

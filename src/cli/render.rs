@@ -8,6 +8,7 @@ use glam::Vec3;
 
 use super::bake_options::{BakeOptions, bake_device, lit_scene, load, positive};
 use super::ray_options::{RayOptions, RendererName};
+use super::shadow_options::{ShadowOptions, compare_shadows};
 use crate::baked::{self, BakedScene, VertexLight};
 use crate::gpu::Gpu;
 use crate::render::picture::check_size;
@@ -45,6 +46,9 @@ pub struct RenderArgs {
     /// Largest relative root mean square error against the reference.
     #[arg(long, value_name = "T", default_value = "0.05", value_parser = positive, requires = "reference")]
     pub threshold: f32,
+    /// Which shadows direct light throws.
+    #[command(flatten)]
+    pub shadows: ShadowOptions,
     /// How to bake where the file stores no light.
     #[command(flatten)]
     pub bake: BakeOptions,
@@ -86,9 +90,17 @@ impl RenderArgs {
 pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
     // What can be refused at once is refused before the bake.
     FileKind::of(&args.output)?;
+    if args.shadows.shadows.is_some() && args.rays.renderer != RendererName::Raster {
+        bail!("--shadows is for the raster renderer; rays find their own shadows");
+    }
     let reference = args.reference.as_deref().map(Raster::load).transpose()?;
     let scene = load(&args.scene)?;
     let camera = choose_camera(&scene, args.camera.as_deref())?;
+    if let Some(techniques) = args.shadows.compared()? {
+        let gpu = Gpu::headless()?;
+        check_size(&gpu, args.size.0)?;
+        return compare_shadows(&gpu, unbaked(scene), &camera, args.size.0, &techniques, &args.output);
+    }
     let picture = match args.rays.renderer {
         RendererName::Raster => drawn(scene, &camera, args, is_quiet)?,
         RendererName::TwoPass => {
@@ -129,10 +141,12 @@ fn choose_camera(scene: &Scene, wanted: Option<&str>) -> Result<Camera> {
 
 /// The scene with the light that is to be shown.
 fn light(gpu: &Gpu, scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
-    match args.lighting() {
-        Lighting::Ambient => Ok(baked::gltf::from_scene(scene).unwrap_or_else(dark)),
-        _ => lit_scene(Some(gpu), scene, &args.bake.settings(), is_quiet),
-    }
+    let needs_no_bake = match args.lighting() {
+        Lighting::Ambient => true,
+        Lighting::Direct => args.shadows.shadows.is_some(),
+        Lighting::Radiosity | Lighting::IndirectAndDirect => false,
+    };
+    if needs_no_bake { Ok(unbaked(scene)) } else { lit_scene(Some(gpu), scene, &args.bake.settings(), is_quiet) }
 }
 
 /// The scene with the light that the second pass does not trace.
@@ -147,15 +161,22 @@ fn first_pass(scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedSc
     }
 }
 
+/// The scene with the light it stores, else with none.
+fn unbaked(scene: Scene) -> BakedScene {
+    baked::gltf::from_scene(scene).unwrap_or_else(dark)
+}
+
 fn dark(scene: Scene) -> BakedScene {
     BakedScene { light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()), scene }
 }
 
 fn look(args: &RenderArgs, baked: &BakedScene) -> Look {
-    let all = Look { exposure: args.exposure, ..Look::default() };
+    let all = Look { exposure: args.exposure, shadows: args.shadows.settings(), ..Look::default() };
+    // Ambient light takes the place of the stored light; shadows bring direct light of their own.
+    let shadowed = f32::from(u8::from(all.shadows.is_some()));
     match args.lighting() {
         Lighting::Direct => Look { indirect: 0.0, ..all },
-        Lighting::Ambient => Look { direct: 0.0, indirect: 0.0, ambient: mean_radiance(&baked.light), ..all },
+        Lighting::Ambient => Look { direct: shadowed, indirect: 0.0, ambient: mean_radiance(&baked.light), ..all },
         Lighting::Radiosity | Lighting::IndirectAndDirect => all,
     }
 }

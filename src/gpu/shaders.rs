@@ -21,7 +21,59 @@ macro_rules! shader {
 pub const ITEM_BUFFER: Shader = shader!("item_buffer", "item_buffer.wgsl");
 
 /// Surface pass: radiance of each visible point.
-pub const SURFACE: Shader = shader!("surface", "shared/frame.wgsl", "surface.wgsl");
+pub const SURFACE: Shader =
+    shader!("surface", "shared/frame.wgsl", "shared/material.wgsl", "surface.wgsl", "shared/direct_stored.wgsl");
+/// Surface pass with direct irradiance from a texture with one sample a pixel.
+pub const SURFACE_LIT: Shader =
+    shader!("surface lit", "shared/frame.wgsl", "shared/material.wgsl", "surface.wgsl", "shared/direct_one.wgsl");
+/// Surface pass with direct irradiance from a texture with several samples a pixel.
+pub const SURFACE_LIT_SAMPLES: Shader = shader!(
+    "surface lit samples",
+    "shared/frame.wgsl",
+    "shared/material.wgsl",
+    "surface.wgsl",
+    "shared/direct_many.wgsl"
+);
+/// Depth of the visible surfaces.
+pub const DEPTH_PREPASS: Shader =
+    shader!("depth prepass", "shared/frame.wgsl", "shared/material.wgsl", "depth_prepass.wgsl");
+/// Direct light of one sample where the stencil lets it pass.
+pub const DIRECT_LIGHT: Shader = shader!(
+    "direct light",
+    "shared/frame.wgsl",
+    "shared/visible_point.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/visibility_stencil.wgsl",
+    "direct_light.wgsl"
+);
+/// Counts shadow volumes in the stencil.
+pub const SHADOW_VOLUME: Shader =
+    shader!("shadow volume", "shared/frame.wgsl", "shared/light_sample.wgsl", "shadow_volume.wgsl");
+/// Marks what lies behind casters with holes.
+pub const CUTOUT_SHADOW: Shader = shader!(
+    "cut-out shadow",
+    "shared/frame.wgsl",
+    "shared/material.wgsl",
+    "shared/visible_point.wgsl",
+    "shared/light_sample.wgsl",
+    "cutout_shadow.wgsl"
+);
+/// Depth as a light sees it.
+pub const SHADOW_MAP: Shader = shader!("shadow map", "shared/frame.wgsl", "shared/material.wgsl", "shadow_map.wgsl");
+/// Direct light of one sample where its shadow map sees the point.
+pub const DIRECT_LIGHT_MAP: Shader = shader!(
+    "direct light, map",
+    "shared/frame.wgsl",
+    "shared/visible_point.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/visibility_map.wgsl",
+    "direct_light.wgsl"
+);
+/// Receivers, and casters flattened on to them.
+pub const PLANAR_SHADOW: Shader = shader!("planar shadow", "shared/frame.wgsl", "planar_shadow.wgsl");
+/// Places and normals of visible points.
+pub const VISIBLE_POINTS: Shader =
+    shader!("visible points", "shared/frame.wgsl", "shared/visible_point.wgsl", "raytraced.wgsl");
 /// Metering: the exposure that suits a picture.
 pub const METER: Shader = shader!("meter", "shared/frame.wgsl", "shared/colour.wgsl", "meter.wgsl");
 /// Tone mapping of a picture with one sample a pixel.
@@ -44,7 +96,23 @@ pub const TONEMAP_SAMPLES: Shader = shader!(
 );
 
 /// All shaders, for the test that validates each and for reloading.
-pub const ALL: &[&Shader] = &[&ITEM_BUFFER, &SURFACE, &METER, &TONEMAP, &TONEMAP_SAMPLES];
+pub const ALL: &[&Shader] = &[
+    &ITEM_BUFFER,
+    &SURFACE,
+    &SURFACE_LIT,
+    &SURFACE_LIT_SAMPLES,
+    &DEPTH_PREPASS,
+    &DIRECT_LIGHT,
+    &SHADOW_VOLUME,
+    &CUTOUT_SHADOW,
+    &SHADOW_MAP,
+    &DIRECT_LIGHT_MAP,
+    &PLANAR_SHADOW,
+    &VISIBLE_POINTS,
+    &METER,
+    &TONEMAP,
+    &TONEMAP_SAMPLES,
+];
 
 impl Shader {
     /// The WGSL text.

@@ -1,8 +1,12 @@
 //! The frame: the passes that make one picture, in order.
 
+use std::sync::Arc;
+
 use super::frame_uniform::{frame_bind_group, frame_layout};
 use super::meter::Meter;
-use super::surface::SurfacePass;
+use super::shadow::real_time::{RealTimeLight, Subject};
+use super::shadow::{ShadowScene, ShadowTechnique};
+use super::surface::{Direct, SurfacePass};
 use super::tonemap::ToneMapPass;
 use super::{Look, View};
 use crate::gpu::readback::read_buffer;
@@ -13,10 +17,34 @@ use crate::gpu::{Gpu, GpuError, SceneBuffers};
 pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     surface: SurfacePass,
+    lit: Option<LitPasses>,
+    shadows: Option<Arc<ShadowScene>>,
     meter: Meter,
     tone_map: ToneMapPass,
     samples: u32,
     targets: Option<Targets>,
+}
+
+/// Passes of pictures whose direct light comes from the lights; made when the first is drawn.
+struct LitPasses {
+    light: RealTimeLight,
+    surface: SurfacePass,
+    surface_traced: SurfacePass,
+}
+
+impl LitPasses {
+    fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32) -> Self {
+        let direct = if samples > 1 { Direct::Samples } else { Direct::Pixels };
+        Self {
+            light: RealTimeLight::new(gpu, frame_layout, samples),
+            surface: SurfacePass::new(gpu, frame_layout, samples, direct),
+            surface_traced: SurfacePass::new(gpu, frame_layout, samples, Direct::Pixels),
+        }
+    }
+
+    fn surface(&self, technique: ShadowTechnique) -> &SurfacePass {
+        if technique == ShadowTechnique::Raytraced { &self.surface_traced } else { &self.surface }
+    }
 }
 
 impl Renderer {
@@ -25,13 +53,27 @@ impl Renderer {
     pub fn new(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32) -> Self {
         let frame_layout = frame_layout(gpu);
         Self {
-            surface: SurfacePass::new(gpu, &frame_layout, samples),
+            surface: SurfacePass::new(gpu, &frame_layout, samples, Direct::Stored),
+            lit: None,
+            shadows: None,
             meter: Meter::new(gpu, &frame_layout),
             tone_map: ToneMapPass::new(gpu, &frame_layout, output_format, samples),
             frame_layout,
             samples,
             targets: None,
         }
+    }
+
+    /// Casters and lights of the scenes that are drawn from now on, for looks that ask for shadows.
+    pub fn cast_shadows(&mut self, shadows: Option<Arc<ShadowScene>>) {
+        let is_same = match (&self.shadows, &shadows) {
+            (Some(last), Some(next)) => Arc::ptr_eq(last, next),
+            _ => false,
+        };
+        if let Some(lit) = self.lit.as_mut().filter(|_| !is_same) {
+            lit.light.forget();
+        }
+        self.shadows = shadows;
     }
 
     /// Records a picture of `scene` into the whole of `target`, which is `size` pixels wide and high.
@@ -52,8 +94,17 @@ impl Renderer {
         };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
 
-        // Radiance from every visible point towards the eye, several samples a pixel, and their mean.
-        self.surface.draw(encoder, &targets, &frame, scene, look);
+        if let (Some(settings), Some(shadows)) = (&look.shadows, &self.shadows) {
+            let lit = self.lit.get_or_insert_with(|| LitPasses::new(gpu, &self.frame_layout, self.samples));
+            let subject = Subject { frame: &frame, scene, shadows, view, look };
+            // Direct irradiance from the lights themselves, each in its shadows.
+            let direct = lit.light.draw(gpu, encoder, size, subject, settings);
+            // Radiance from every visible point towards the eye: stored indirect light, and that direct light.
+            lit.surface(settings.technique).draw(gpu, encoder, &targets, &frame, scene, look, Some(&direct));
+        } else {
+            // Radiance from every visible point towards the eye, several samples a pixel, and their mean.
+            self.surface.draw(gpu, encoder, &targets, &frame, scene, look, None);
+        }
         // The exposure that suits this picture, unless one is given.
         if look.fixed_exposure().is_none() {
             self.meter.draw(gpu, encoder, &targets, &frame);

@@ -4,11 +4,10 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
+use super::look::MAX_GROUPS;
 use super::{Look, Shading, ToneMap, View};
+use crate::base::ids::GroupId;
 use crate::gpu::{Gpu, SceneBuffers};
-
-/// Light groups that can be weighted; those beyond follow the last.
-const MAX_GROUPS: usize = 8;
 
 /// `Frame` of shaders/shared/frame.wgsl.
 #[repr(C)]
@@ -28,11 +27,12 @@ struct FrameUniform {
     num_groups: u32,
     num_vertices: u32,
     padding: u32,
+    eye: Vec4,
 }
 
 impl FrameUniform {
     fn new(scene: &SceneBuffers, view: &View, look: &Look) -> Self {
-        let weight = |group: usize| look.group_weights.get(group).copied().unwrap_or(Vec3::ONE).extend(0.0);
+        let weight = |group: usize| look.group_weight(GroupId::new(group)).extend(0.0);
         Self {
             projection_from_world: view.projection_from_world(),
             group_weights: std::array::from_fn(weight),
@@ -56,6 +56,7 @@ impl FrameUniform {
             num_groups: scene.num_groups() as u32,
             num_vertices: scene.num_vertices() as u32,
             padding: 0,
+            eye: view.eye(),
         }
     }
 }
@@ -122,7 +123,8 @@ mod tests {
             metal_as_diffuse,
             num_groups,
             num_vertices,
-            padding
+            padding,
+            eye
         ];
         assert_eq!(written, struct_layout(&SURFACE, "Frame"));
     }

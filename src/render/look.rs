@@ -2,6 +2,12 @@
 
 use glam::Vec3;
 
+use super::shadow::ShadowSettings;
+use crate::base::ids::GroupId;
+
+/// Light groups that can be weighted; those beyond follow the last.
+pub const MAX_GROUPS: usize = 8;
+
 /// How bright the picture is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
@@ -44,6 +50,8 @@ pub struct Look {
     pub shading: Shading,
     /// Factor on direct irradiance.
     pub direct: f32,
+    /// Direct light comes from the lights themselves, with these shadows; none: it comes from the vertices, as baked.
+    pub shadows: Option<ShadowSettings>,
     /// Factor on indirect irradiance.
     pub indirect: f32,
     /// Radiance that ideal white paint shows everywhere in addition: it makes unlit scenes visible.
@@ -67,6 +75,7 @@ impl Default for Look {
             tone_map: ToneMap::Neutral,
             shading: Shading::Lit,
             direct: 1.0,
+            shadows: None,
             indirect: 1.0,
             ambient: Vec3::ZERO,
             group_weights: Vec::new(),
@@ -86,6 +95,12 @@ impl Look {
             (_, Exposure::Ev(ev)) => Some(ev.exp2()),
             (_, Exposure::Auto) => None,
         }
+    }
+
+    /// Factor on the light of a group.
+    #[must_use]
+    pub fn group_weight(&self, group: GroupId) -> Vec3 {
+        self.group_weights.get(group.index().min(MAX_GROUPS - 1)).copied().unwrap_or(Vec3::ONE)
     }
 
     /// The tone map in force: what is no light is shown as it is.

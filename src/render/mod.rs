@@ -10,6 +10,7 @@ pub mod develop;
 pub mod frame;
 pub mod look;
 pub mod picture;
+pub mod shadow;
 pub mod view;
 
 mod frame_uniform;
@@ -21,7 +22,8 @@ pub use compare::{Difference, Raster, compare};
 pub use develop::develop;
 pub use frame::Renderer;
 pub use look::{Exposure, Look, Shading, ToneMap};
-pub use picture::{FileKind, Picture, picture, picture_of};
+pub use picture::{FileKind, Picture, picture, picture_in_light, picture_of, save_display};
+pub use shadow::{ShadowScene, ShadowSettings, ShadowTechnique};
 pub use view::View;
 
 use std::path::PathBuf;

@@ -2,9 +2,13 @@
 
 use std::io::Cursor;
 use std::path::Path;
+use std::sync::Arc;
 
-use super::{Look, RenderError, Renderer, View};
+use glam::Vec3;
+
+use super::{Look, RenderError, Renderer, ShadowScene, View};
 use crate::baked::BakedScene;
+use crate::base::colour::srgb_from_linear;
 use crate::base::output::write_whole;
 use crate::gpu::readback::read_texture;
 use crate::gpu::{Gpu, GpuError, SceneBuffers};
@@ -37,7 +41,8 @@ pub fn picture(
     size: [u32; 2],
     look: &Look,
 ) -> Result<Picture, GpuError> {
-    picture_of(gpu, &SceneBuffers::new(gpu, baked), camera, size, look, SAMPLES)
+    let shadows = look.shadows.as_ref().map(|_| Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene.clone()))));
+    picture_in_light(gpu, &SceneBuffers::new(gpu, baked), shadows, camera, size, look, SAMPLES)
 }
 
 /// A picture of a scene that is on the device already, with `samples` samples a pixel, 1 or 4.
@@ -52,8 +57,25 @@ pub fn picture_of(
     look: &Look,
     samples: u32,
 ) -> Result<Picture, GpuError> {
+    picture_in_light(gpu, scene, None, camera, size, look, samples)
+}
+
+/// A picture as [`picture_of`], with direct light from the lights of `shadows` where the look asks for it.
+///
+/// # Errors
+/// As [`picture`].
+pub fn picture_in_light(
+    gpu: &Gpu,
+    scene: &SceneBuffers,
+    shadows: Option<Arc<ShadowScene>>,
+    camera: &Camera,
+    size: [u32; 2],
+    look: &Look,
+    samples: u32,
+) -> Result<Picture, GpuError> {
     check_size(gpu, size)?;
     let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, samples);
+    renderer.cast_shadows(shadows);
     let target = display_target(gpu, size);
     let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
@@ -103,7 +125,7 @@ fn radiance_from_hdr(bytes: &[u8], pre_exposure: f32) -> Vec<[f32; 4]> {
 }
 
 /// Value of an IEEE 754 half float.
-fn f32_from_half(bits: u16) -> f32 {
+pub(super) fn f32_from_half(bits: u16) -> f32 {
     let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
     let exponent = i32::from(bits >> 10 & 0x1f);
     let fraction = f32::from(bits & 0x3ff);
@@ -162,6 +184,17 @@ impl Picture {
         let rgb: Vec<f32> = self.radiance.iter().flat_map(|&[r, g, b, _]| [r, g, b]).collect();
         image::Rgb32FImage::from_raw(self.width, self.height, rgb).expect("three floats a pixel").into()
     }
+}
+
+/// Writes linear display colours, whose white is 1, as `.png`, or as they are as `.exr`.
+///
+/// # Errors
+/// As [`Picture::save`].
+pub fn save_display(path: &Path, size: [u32; 2], pixels: &[Vec3]) -> Result<(), RenderError> {
+    let encode = |channel: f32| (255.0 * srgb_from_linear(channel)).round() as u8;
+    let display = pixels.iter().flat_map(|pixel| [encode(pixel.x), encode(pixel.y), encode(pixel.z), 255]).collect();
+    let radiance = pixels.iter().map(|pixel| pixel.extend(1.0).to_array()).collect();
+    Picture { width: size[0], height: size[1], radiance, display }.save(path)
 }
 
 fn write_image(path: &Path, format: image::ImageFormat, image: &image::DynamicImage) -> Result<(), RenderError> {

@@ -58,34 +58,84 @@ pub struct SurfacePass {
     opaque: Pipelines,
     mask: Pipelines,
     blend: Pipelines,
+    /// Of bind group 3, where there is one.
+    direct_layout: Option<wgpu::BindGroupLayout>,
+}
+
+/// Where direct light comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direct {
+    /// The vertices, as baked.
+    Stored,
+    /// A texture of irradiance, one value a pixel.
+    Pixels,
+    /// A texture of irradiance with several samples a pixel.
+    Samples,
+}
+
+impl Direct {
+    fn shader(self) -> &'static shaders::Shader {
+        match self {
+            Direct::Stored => &shaders::SURFACE,
+            Direct::Pixels => &shaders::SURFACE_LIT,
+            Direct::Samples => &shaders::SURFACE_LIT_SAMPLES,
+        }
+    }
+
+    fn layout(self, gpu: &Gpu) -> Option<wgpu::BindGroupLayout> {
+        let texture = wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty: wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: self == Direct::Samples,
+            },
+            count: None,
+        };
+        let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("direct irradiance"), entries: &[texture] };
+        (self != Direct::Stored).then(|| gpu.device.create_bind_group_layout(&descriptor))
+    }
 }
 
 impl SurfacePass {
-    /// Pipelines for HDR targets with `samples` samples a pixel.
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32) -> Self {
-        let module = shaders::SURFACE.module(&gpu.device);
+    /// Pipelines for HDR targets with `samples` samples a pixel, and for direct light from `direct`.
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32, direct: Direct) -> Self {
+        let direct_layout = direct.layout(gpu);
+        let module = direct.shader().module(&gpu.device);
+        let (light, material) = (light_layout(gpu), material_layout(gpu));
+        let mut layouts = vec![Some(frame_layout), Some(&light), Some(&material)];
+        layouts.extend(direct_layout.as_ref().map(Some));
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("surface"),
-            bind_group_layouts: &[Some(frame_layout), Some(&light_layout(gpu)), Some(&material_layout(gpu))],
+            bind_group_layouts: &layouts,
             immediate_size: 0,
         });
+        let is_lit = direct_layout.is_some();
         let pipelines = |alpha: &AlphaVariant| Pipelines {
-            culled: pipeline(gpu, &layout, &module, samples, alpha, Some(wgpu::Face::Back)),
-            two_faced: pipeline(gpu, &layout, &module, samples, alpha, None),
+            culled: pipeline(gpu, &layout, &module, samples, alpha, is_lit, Some(wgpu::Face::Back)),
+            two_faced: pipeline(gpu, &layout, &module, samples, alpha, is_lit, None),
         };
-        Self { opaque: pipelines(&OPAQUE), mask: pipelines(&MASK), blend: pipelines(&BLEND) }
+        Self { opaque: pipelines(&OPAQUE), mask: pipelines(&MASK), blend: pipelines(&BLEND), direct_layout }
     }
 
-    /// Clears the targets and draws the scene into them.
+    /// Clears the targets and draws the scene into them; `direct` is the texture that [`Direct`] promised.
+    #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, targets) and what of it")]
     pub fn draw(
         &self,
+        gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
         frame: &wgpu::BindGroup,
         scene: &SceneBuffers,
         look: &Look,
+        direct: Option<&wgpu::TextureView>,
     ) {
+        let direct = self.direct_layout.as_ref().zip(direct).map(|(layout, view)| bind_direct(gpu, layout, view));
         let mut pass = begin(encoder, targets);
+        if direct.is_some() {
+            pass.set_bind_group(3, &direct, &[]);
+        }
         pass.set_bind_group(0, frame, &[]);
         pass.set_bind_group(1, &scene.light, &[]);
         if !scene.batches.is_empty() {
@@ -112,6 +162,14 @@ impl SurfacePass {
         };
         if culls { &pipelines.culled } else { &pipelines.two_faced }
     }
+}
+
+fn bind_direct(gpu: &Gpu, layout: &wgpu::BindGroupLayout, view: &wgpu::TextureView) -> wgpu::BindGroup {
+    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some("direct irradiance"),
+        layout,
+        entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(view) }],
+    })
 }
 
 /// Begins the pass with nothing drawn: no light, no coverage, infinitely far.
@@ -143,10 +201,17 @@ fn pipeline(
     module: &wgpu::ShaderModule,
     samples: u32,
     alpha: &AlphaVariant,
+    is_lit: bool,
     cull_mode: Option<wgpu::Face>,
 ) -> wgpu::RenderPipeline {
     let to_coverage = alpha.to_coverage && samples > 1;
-    let constants = [("ALPHA_MODE", alpha.shader_mode), ("ALPHA_TO_COVERAGE", f64::from(u8::from(to_coverage)))];
+    let switch = |is_on: bool| f64::from(u8::from(is_on));
+    let constants = [
+        ("ALPHA_MODE", alpha.shader_mode),
+        ("ALPHA_TO_COVERAGE", switch(to_coverage)),
+        ("LIT_BY_LIGHTS", switch(is_lit)),
+    ];
+    let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
     let target = wgpu::ColorTargetState { format: HDR_FORMAT, blend: alpha.blend, write_mask: wgpu::ColorWrites::ALL };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(&format!("surface, {}, {}", alpha.label, if cull_mode.is_some() { "culled" } else { "two-faced" })),
@@ -154,7 +219,7 @@ fn pipeline(
         vertex: wgpu::VertexState {
             module,
             entry_point: Some("vertex"),
-            compilation_options: Default::default(),
+            compilation_options: compilation_options.clone(),
             buffers: &[Some(GpuVertex::LAYOUT)],
         },
         primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
@@ -173,7 +238,7 @@ fn pipeline(
         fragment: Some(wgpu::FragmentState {
             module,
             entry_point: Some("fragment"),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            compilation_options,
             targets: &[Some(target)],
         }),
         multiview_mask: None,

@@ -1,7 +1,7 @@
 //! From where a picture is taken.
 
 use glam::camera::rh::proj::directx;
-use glam::{Mat4, Vec3};
+use glam::{Mat4, Vec3, Vec4};
 
 use crate::scene::{Camera, Projection};
 
@@ -44,6 +44,29 @@ impl View {
     pub fn projection_from_world(&self) -> Mat4 {
         self.projection_from_view * self.view_from_world
     }
+
+    /// Depth at a distance along the axis of the view, metres.
+    #[must_use]
+    pub fn depth_at(&self, distance: f32) -> f32 {
+        self.projection_from_view.project_point3(Vec3::new(0.0, 0.0, -distance)).z
+    }
+
+    /// Homogeneous eye: its position with w = 1, or in an orthographic view the unit vector towards it with w = 0.
+    #[must_use]
+    pub fn eye(&self) -> Vec4 {
+        let is_perspective = self.projection_from_view.w_axis.w == 0.0;
+        if is_perspective {
+            self.camera_position.extend(1.0)
+        } else {
+            self.view_from_world.row(2).truncate().extend(0.0)
+        }
+    }
+
+    /// From a point to the eye, metres; one metre towards it where it is infinitely far.
+    #[must_use]
+    pub fn towards_eye(&self, point: Vec3) -> Vec3 {
+        self.eye().truncate() - self.eye().w * point
+    }
 }
 
 #[cfg(test)]
@@ -70,6 +93,7 @@ mod tests {
         let view = View::from_camera(&camera, 1.0);
         assert!((depth(&view, Vec3::ZERO) - 1.0).abs() < 1e-6);
         assert!(depth(&view, Vec3::NEG_Z) > depth(&view, 2.0 * Vec3::NEG_Z));
+        assert!((view.towards_eye(Vec3::X) - Vec3::Z).length() < 1e-6);
         let top = view.projection_from_world().project_point3(Vec3::new(0.0, 2.0, -5.0));
         assert!((top.y - 1.0).abs() < 1e-6, "{top}");
     }

@@ -16,6 +16,7 @@ use crate::bake::{Bake, BakeSettings, Watch, bake};
 use crate::baked::{self, BakedScene, VertexLight};
 use crate::base::progress::{Cancel, Gate, Progress, Stage};
 use crate::gpu::{Gpu, SceneBuffers};
+use crate::render::ShadowScene;
 use crate::scene::{Scene, builtin, gltf};
 
 /// The window hears of progress at most this often.
@@ -79,6 +80,8 @@ pub enum Event {
     Mesh {
         /// On the device.
         buffers: Arc<SceneBuffers>,
+        /// Its casters and lights.
+        shadows: Arc<ShadowScene>,
         /// Triangles that receive light.
         num_elements: usize,
     },
@@ -100,6 +103,8 @@ pub struct Loaded {
     pub collider: Collider,
     /// On the device.
     pub buffers: Arc<SceneBuffers>,
+    /// Its casters and lights.
+    pub shadows: Arc<ShadowScene>,
     /// The file is a bake: nothing is left to do.
     pub is_baked: bool,
 }
@@ -225,7 +230,9 @@ impl Runner {
         let collider = Collider::new(&baked.scene);
         let buffers = Arc::new(SceneBuffers::new(&self.gpu, &baked));
         let scene = Arc::new(baked.scene);
-        self.tell(Event::Loaded(Box::new(Loaded { scene: Arc::clone(&scene), collider, buffers, is_baked })));
+        let shadows = Arc::new(ShadowScene::new(&self.gpu, Arc::clone(&scene)));
+        let loaded = Loaded { scene: Arc::clone(&scene), collider, buffers, shadows, is_baked };
+        self.tell(Event::Loaded(Box::new(loaded)));
         if is_baked { Ok(()) } else { self.bake(&scene, settings) }
     }
 
@@ -279,7 +286,9 @@ impl Progress for Runner {
 impl Watch for Runner {
     fn mesh(&self, dark: &BakedScene) {
         let buffers = Arc::new(SceneBuffers::new(&self.gpu, dark));
-        self.tell(Event::Mesh { buffers: Arc::clone(&buffers), num_elements: dark.scene.triangles.len() });
+        let shadows = Arc::new(ShadowScene::new(&self.gpu, Arc::new(dark.scene.clone())));
+        let num_elements = dark.scene.triangles.len();
+        self.tell(Event::Mesh { buffers: Arc::clone(&buffers), shadows, num_elements });
         // The recipe hands out one mesh only; a second would find the first in place.
         let _ = self.mesh.set(buffers);
     }

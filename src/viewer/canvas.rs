@@ -8,7 +8,7 @@ use std::sync::Arc;
 use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
 
 use crate::gpu::{Gpu, SceneBuffers};
-use crate::render::{Look, Renderer, View};
+use crate::render::{Look, Renderer, ShadowScene, View};
 
 /// Samples a pixel of a fine picture.
 pub const SAMPLES: u32 = 4;
@@ -29,6 +29,8 @@ pub enum Detail {
 pub struct Sight {
     /// What is seen.
     pub scene: Arc<SceneBuffers>,
+    /// Its casters and lights.
+    pub shadows: Arc<ShadowScene>,
     /// Counts how often the light of `scene` was renewed.
     pub light: u32,
     /// From where.
@@ -131,12 +133,20 @@ impl Canvas {
         };
         let target = view_of(&texture);
         let Sight { scene, view, look, size, .. } = &sight;
+        self.cast_shadows(&sight.shadows);
         match (&mut self.quick, detail) {
             (Some(quick), Detail::Sketch) => quick.sketch(gpu, encoder, &target, self.format, &sight),
             (Some(quick), Detail::Plain) => quick.renderer.draw(gpu, encoder, &target, *size, scene, view, look),
             _ => self.fine.draw(gpu, encoder, &target, *size, scene, view, look),
         }
         self.picture = Some(Picture { sight, detail, texture });
+    }
+
+    fn cast_shadows(&mut self, shadows: &Arc<ShadowScene>) {
+        let quick = self.quick.as_mut().map(|quick| &mut quick.renderer);
+        for renderer in [Some(&mut self.fine), quick].into_iter().flatten() {
+            renderer.cast_shadows(Some(Arc::clone(shadows)));
+        }
     }
 
     /// Lays the last picture into the top left corner of `target`.

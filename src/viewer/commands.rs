@@ -110,7 +110,7 @@ impl Walkthrough {
         let Some(place) = &self.session.place else { return };
         let camera = place.traveller.eye.camera();
         let look = self.panels.light.look(place.is_lit);
-        match screenshot::take(&self.screen.gpu, &place.buffers, &camera, size, &look, Path::new(".")) {
+        match screenshot::take(&self.screen.gpu, place, &camera, size, &look, Path::new(".")) {
             Ok(path) => self.panels.notice = Some(Notice::new(format!("Written: {}", path.display()))),
             Err(error) => self.report(Err(error)),
         }

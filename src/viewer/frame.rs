@@ -88,6 +88,7 @@ impl Walkthrough {
         let size = self.picture_size;
         let sight = Sight {
             scene: Arc::clone(&place.buffers),
+            shadows: Arc::clone(&place.shadows),
             light: place.light_version,
             view: View::from_camera(&place.traveller.eye.camera(), size[0] as f32 / size[1] as f32),
             look: self.panels.light.look(place.is_lit),

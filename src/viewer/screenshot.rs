@@ -1,12 +1,14 @@
 //! F12: a picture of the view, without the panels, beside the ones that were taken before.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use anyhow::Context;
 
 use super::canvas::SAMPLES;
-use crate::gpu::{Gpu, SceneBuffers};
-use crate::render::{Look, picture_of};
+use super::session::Place;
+use crate::gpu::Gpu;
+use crate::render::{Look, picture_in_light};
 use crate::scene::Camera;
 
 /// Draws the view once more and writes it into `folder` as the next `hemicube-NNN.png`.
@@ -15,13 +17,13 @@ use crate::scene::Camera;
 /// The GPU was lost or the file cannot be written.
 pub fn take(
     gpu: &Gpu,
-    scene: &SceneBuffers,
+    place: &Place,
     camera: &Camera,
     size: [u32; 2],
     look: &Look,
     folder: &Path,
 ) -> anyhow::Result<PathBuf> {
-    let picture = picture_of(gpu, scene, camera, size, look, SAMPLES)?;
+    let picture = picture_in_light(gpu, &place.buffers, Some(Arc::clone(&place.shadows)), camera, size, look, SAMPLES)?;
     let path = next_name(folder).context("there are a thousand pictures in this folder already")?;
     picture.save(&path)?;
     Ok(path)

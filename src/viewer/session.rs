@@ -14,6 +14,7 @@ use super::travel::Traveller;
 use crate::bake::{Bake, BakeSettings};
 use crate::base::progress::Stage;
 use crate::gpu::{Gpu, SceneBuffers};
+use crate::render::ShadowScene;
 use crate::scene::Scene;
 
 /// An opened scene.
@@ -26,6 +27,8 @@ pub struct Place {
     pub traveller: Traveller,
     /// On the device.
     pub buffers: Arc<SceneBuffers>,
+    /// Its casters and lights.
+    pub shadows: Arc<ShadowScene>,
     /// Counts how often their light was renewed.
     pub light_version: u32,
     /// There is light to see by.
@@ -46,7 +49,7 @@ pub struct Session {
     job: u32,
     began: Instant,
     /// A mesh that waits for its first light before it is shown.
-    coming: Option<Arc<SceneBuffers>>,
+    coming: Option<(Arc<SceneBuffers>, Arc<ShadowScene>)>,
     num_elements: Option<usize>,
     outcome: LightState,
 }
@@ -151,8 +154,8 @@ impl Session {
         }
         match news.event {
             Event::Loaded(loaded) => self.enter(*loaded),
-            Event::Mesh { buffers, num_elements } => {
-                self.coming = Some(buffers);
+            Event::Mesh { buffers, shadows, num_elements } => {
+                self.coming = Some((buffers, shadows));
                 self.num_elements = Some(num_elements);
                 Outcome::Changed
             }
@@ -167,11 +170,13 @@ impl Session {
     }
 
     fn enter(&mut self, loaded: Loaded) -> Outcome {
-        let Loaded { scene, collider, buffers, is_baked } = loaded;
+        let Loaded { scene, collider, buffers, shadows, is_baked } = loaded;
         let traveller = first_view(&scene, &collider);
         self.num_elements = is_baked.then_some(scene.triangles.len());
         self.outcome = if is_baked { LightState::Stored } else { LightState::Dark };
-        self.place = Some(Place { scene, collider, traveller, buffers, light_version: 0, is_lit: is_baked, camera: 0 });
+        let (light_version, camera) = (0, 0);
+        let is_lit = is_baked;
+        self.place = Some(Place { scene, collider, traveller, buffers, shadows, light_version, is_lit, camera });
         if is_baked {
             self.retire();
         }
@@ -182,8 +187,8 @@ impl Session {
     fn light_up(&mut self) {
         let Some(place) = &mut self.place else { return };
         place.light_version += 1;
-        if let Some(buffers) = self.coming.take() {
-            (place.buffers, place.is_lit) = (buffers, true);
+        if let Some((buffers, shadows)) = self.coming.take() {
+            (place.buffers, place.shadows, place.is_lit) = (buffers, shadows, true);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::render::{Exposure, Look, Shading, ToneMap};
+use crate::render::{Exposure, Look, Shading, ShadowSettings, ShadowTechnique, ToneMap};
 use crate::scene::Scene;
 
 /// Exposure changes by this much with one key press, stops.
@@ -35,6 +35,10 @@ pub struct LightSettings {
     pub indirect: bool,
     /// Look into rooms from outside, through the backs of their walls.
     pub see_through_backs: bool,
+    /// Direct light comes from the lamps themselves and throws `shadows`.
+    pub is_real_time: bool,
+    /// How.
+    pub shadows: ShadowSettings,
     /// A dial for each light group `[g]`.
     pub groups: Vec<GroupDial>,
 }
@@ -61,6 +65,8 @@ impl Default for LightSettings {
             direct: true,
             indirect: true,
             see_through_backs: look.cull_back,
+            is_real_time: false,
+            shadows: ShadowSettings::new(ShadowTechnique::VolumeDepthFail),
             groups: Vec::new(),
         }
     }
@@ -108,6 +114,7 @@ impl LightSettings {
             shading: self.shading,
             direct: f32::from(self.direct),
             indirect: f32::from(self.indirect),
+            shadows: self.is_real_time.then(|| self.shadows.clone()),
             ambient: if is_lit { Vec3::ZERO } else { WORK_LIGHT },
             group_weights: self.groups.iter().map(GroupDial::weight).collect(),
             cull_back: self.see_through_backs,

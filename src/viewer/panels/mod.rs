@@ -9,6 +9,7 @@ mod help;
 mod light;
 mod message;
 mod scene;
+mod shadows;
 mod status;
 pub mod theme;
 mod view;
@@ -173,6 +174,7 @@ impl Panels {
             ui.add(egui::Label::new(RichText::new(name).heading()).truncate());
             ui.label(RichText::new("H: all keys   P: hide panels").weak());
             section(ui, "Light", true, |ui| light::light_ui(ui, &mut self.light, commands));
+            section(ui, "Shadows", false, |ui| shadows::shadows_ui(ui, &mut self.light));
             section(ui, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, facts, commands));
             section(ui, "View", true, |ui| view::view_ui(ui, &mut self.light, facts, commands));
             section(ui, "Cameras", true, |ui| cameras::cameras_ui(ui, facts.scene, commands));
@@ -328,6 +330,19 @@ mod tests {
         assert_eq!(desk.panels.quality, Quality::High);
         desk.click(&dark, "lamps");
         assert!(!desk.panels.light.groups[0].is_on);
+    }
+
+    #[test]
+    fn live_shadows_are_switched_on_in_their_section() {
+        let (mut desk, nothing) = (Desk::new(), facts(None, LightState::Nothing));
+        assert_eq!(desk.panels.light.look(true).shadows, None);
+        desk.click(&nothing, "Shadows");
+        // The section takes some frames to unfold.
+        for _ in 0..30 {
+            desk.frame(&nothing, Vec::new());
+        }
+        desk.click(&nothing, "direct light with live shadows");
+        assert!(desk.panels.light.look(true).shadows.is_some());
     }
 
     #[test]

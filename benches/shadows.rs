@@ -1,0 +1,102 @@
+//! Milliseconds a frame of each shadow technique, and how many times as long as without shadows, in one run.
+//!
+//! `cargo bench --bench shadows -- [SCENE.glb ...]`; without a scene the built-in gallery. 1280 x 720 pixels, one sample a
+//! pixel and emissive surface, the first camera; the best of a few frames counts, the first is not among them.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+use hemicube::baked::{BakedScene, VertexLight};
+use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::{Exposure, Look, Renderer, ShadowScene, ShadowSettings, ShadowTechnique, View};
+use hemicube::scene::{Camera, Scene, builtin, gltf};
+
+const SIZE: [u32; 2] = [1280, 720];
+/// Frames of which the best counts.
+const FRAMES: usize = 4;
+
+const TECHNIQUES: [(ShadowTechnique, &str); 6] = [
+    (ShadowTechnique::None, "none"),
+    (ShadowTechnique::Map, "map"),
+    (ShadowTechnique::VolumeDepthPass, "volume-depth-pass"),
+    (ShadowTechnique::VolumeDepthFail, "volume-depth-fail"),
+    (ShadowTechnique::Planar, "planar"),
+    (ShadowTechnique::Raytraced, "raytraced"),
+];
+
+fn main() -> anyhow::Result<()> {
+    let paths: Vec<String> = std::env::args().skip(1).filter(|arg| arg != "--bench").collect();
+    let gpu = Gpu::headless()?;
+    println!("{}, {}x{}", gpu.name(), SIZE[0], SIZE[1]);
+    if paths.is_empty() {
+        bench(&gpu, builtin::gallery());
+    }
+    for path in paths {
+        bench(&gpu, gltf::load(&PathBuf::from(path))?);
+    }
+    Ok(())
+}
+
+fn bench(gpu: &Gpu, scene: Scene) {
+    println!("{}: {} triangles, {} lights", scene.name, scene.triangles.len(), scene.lights.len());
+    let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
+    let baked = BakedScene { scene, light };
+    let stage = Stage::new(gpu, baked);
+    let mut times = Vec::new();
+    for (technique, name) in TECHNIQUES {
+        let time = stage.milliseconds(gpu, &ShadowSettings::new(technique));
+        times.push(time);
+        println!("{name:<18} {time:>8.1} ms  {:>6.2} x none", time / times[0]);
+    }
+    println!("depth-fail / depth-pass {:.2}", times[3] / times[2]);
+}
+
+/// A scene on the device, seen by its first camera.
+struct Stage {
+    buffers: SceneBuffers,
+    shadows: Arc<ShadowScene>,
+    view: View,
+    target: wgpu::TextureView,
+}
+
+impl Stage {
+    fn new(gpu: &Gpu, baked: BakedScene) -> Self {
+        let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("bench"),
+            size: wgpu::Extent3d { width: SIZE[0], height: SIZE[1], depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: wgpu::TextureFormat::Rgba8Unorm,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        let camera = baked.scene.cameras.first().cloned().unwrap_or_else(|| Camera::framing(baked.scene.bounds()));
+        Self {
+            buffers: SceneBuffers::new(gpu, &baked),
+            shadows: Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene))),
+            view: View::from_camera(&camera, SIZE[0] as f32 / SIZE[1] as f32),
+            target: target.create_view(&Default::default()),
+        }
+    }
+
+    /// Time of the fastest frame.
+    fn milliseconds(&self, gpu: &Gpu, settings: &ShadowSettings) -> f64 {
+        let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, 1);
+        renderer.cast_shadows(Some(Arc::clone(&self.shadows)));
+        let look = Look { shadows: Some(settings.clone()), exposure: Exposure::Ev(0.0), ..Look::default() };
+        let mut best = f64::INFINITY;
+        for frame in 0..=FRAMES {
+            let start = Instant::now();
+            let mut encoder = gpu.device.create_command_encoder(&Default::default());
+            renderer.draw(gpu, &mut encoder, &self.target, SIZE, &self.buffers, &self.view, &look);
+            gpu.queue.submit([encoder.finish()]);
+            gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
+            if frame > 0 {
+                best = best.min(1e3 * start.elapsed().as_secs_f64());
+            }
+        }
+        best
+    }
+}

@@ -1,0 +1,24 @@
+// Depth of every visible point, before light is added to it.
+
+struct Vertex {
+    @location(0) position: vec3f,
+    @location(2) uv: vec4f,
+    @location(3) colour: vec4f,
+}
+
+struct Varying {
+    @builtin(position) @invariant position: vec4f,
+    @location(0) colour: vec4f,
+    @location(1) uv: vec4f,
+}
+
+@vertex
+fn vertex(in: Vertex) -> Varying {
+    return Varying(frame.projection_from_world * vec4f(in.position, 1.0), in.colour, in.uv);
+}
+
+// Only masked surfaces have a fragment shader: it makes their holes.
+@fragment
+fn fragment(in: Varying) {
+    _ = coverage(base_colour(in.colour, in.uv).a);
+}

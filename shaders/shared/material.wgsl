@@ -1,0 +1,91 @@
+// Bind group 2: a material's numbers and textures, and what they say of one point. Written by
+// src/gpu/material_buffers.rs.
+
+const NO_GROUP: u32 = 0xffffffffu;
+
+// How alpha acts; one pipeline each.
+const ALPHA_OPAQUE: u32 = 0u;
+const ALPHA_MASK: u32 = 1u;
+const ALPHA_BLEND: u32 = 2u;
+override ALPHA_MODE: u32 = ALPHA_OPAQUE;
+// Masked edges are softened by coverage (needs several samples a pixel).
+override ALPHA_TO_COVERAGE: bool = false;
+
+// Where a texture is read: rows of the affine map from mesh coordinates, the coordinate set, and whether there is one.
+struct Slot {
+    u: vec3f,
+    uv_set: u32,
+    v: vec3f,
+    is_used: u32,
+}
+
+struct Material {
+    base_colour: vec4f,
+    emission: vec3f,
+    metallic: f32,
+    base_slot: Slot,
+    metallic_slot: Slot,
+    emissive_slot: Slot,
+    alpha_cutoff: f32,
+    // Light group that dims the emission, or NO_GROUP.
+    group: u32,
+    double_sided: u32,
+    unlit: u32,
+}
+
+@group(2) @binding(0) var<uniform> material: Material;
+@group(2) @binding(1) var base_texture: texture_2d<f32>;
+@group(2) @binding(2) var base_sampler: sampler;
+@group(2) @binding(3) var metallic_texture: texture_2d<f32>;
+@group(2) @binding(4) var metallic_sampler: sampler;
+@group(2) @binding(5) var emissive_texture: texture_2d<f32>;
+@group(2) @binding(6) var emissive_sampler: sampler;
+
+fn coordinate(slot: Slot, uv: vec4f) -> vec2f {
+    let at = vec3f(select(uv.xy, uv.zw, slot.uv_set == 1u), 1.0);
+    return vec2f(dot(slot.u, at), dot(slot.v, at));
+}
+
+// Colour and alpha where the mesh has `colour` and both coordinate sets `uv`.
+fn base_colour(colour: vec4f, uv: vec4f) -> vec4f {
+    let factor = material.base_colour * colour;
+    if material.base_slot.is_used == 0u {
+        return factor;
+    }
+    return factor * textureSample(base_texture, base_sampler, coordinate(material.base_slot, uv));
+}
+
+// Share of the pixel that the surface fills.
+fn coverage(alpha: f32) -> f32 {
+    if ALPHA_MODE == ALPHA_OPAQUE {
+        return 1.0;
+    }
+    if ALPHA_MODE == ALPHA_BLEND {
+        return saturate(alpha);
+    }
+    let above = alpha - material.alpha_cutoff;
+    // One pixel wide ramp round the cut-off (Golus 2017, "Anti-aliased Alpha Test").
+    let ramp = saturate(above / max(fwidth(alpha), 1e-4) + 0.5);
+    if select(above < 0.0, ramp <= 0.0, ALPHA_TO_COVERAGE) {
+        discard;
+    }
+    return select(1.0, ramp, ALPHA_TO_COVERAGE);
+}
+
+fn metallic(uv: vec4f) -> f32 {
+    if material.metallic_slot.is_used == 0u {
+        return material.metallic;
+    }
+    return material.metallic * textureSample(metallic_texture, metallic_sampler, coordinate(material.metallic_slot, uv)).b;
+}
+
+fn emission(uv: vec4f) -> vec3f {
+    var emitted = material.emission;
+    if material.group != NO_GROUP {
+        emitted *= group_weight(material.group);
+    }
+    if material.emissive_slot.is_used == 0u {
+        return emitted;
+    }
+    return emitted * textureSample(emissive_texture, emissive_sampler, coordinate(material.emissive_slot, uv)).rgb;
+}

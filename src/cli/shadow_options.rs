@@ -1,0 +1,111 @@
+//! Options of `hemicube render` about shadows, and the comparison of two techniques.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use anyhow::Result;
+use clap::{Args, ValueEnum};
+
+use crate::baked::BakedScene;
+use crate::gpu::{Gpu, SceneBuffers};
+use crate::render::shadow::{Decisions, shadow_difference};
+use crate::render::{ShadowScene, ShadowSettings, ShadowTechnique, View, save_display};
+use crate::scene::Camera;
+
+/// Which shadows direct light throws.
+#[derive(Args, Clone, Debug)]
+pub struct ShadowOptions {
+    /// Draws direct light from the lights themselves, with these shadows, on top of the indirect light of the bake (or
+    /// of ambient light, or of none with --lighting direct, which then need no bake).
+    #[arg(long, value_enum, value_name = "TECHNIQUE")]
+    pub shadows: Option<TechniqueName>,
+    /// Points on each emissive surface from which light comes, 1 to 256; many make soft shadows.
+    #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=256))]
+    pub light_samples: u32,
+    /// Draws no light but where technique A finds other shadows than technique B, and prints how many pixels these are,
+    /// more than one pixel away from an edge of a shadow (of B, or of the ray-traced one).
+    #[arg(long, value_name = "A,B", value_enum, value_delimiter = ',', num_args = 1, conflicts_with_all = ["shadows", "reference"])]
+    pub compare_shadows: Option<Vec<TechniqueName>>,
+}
+
+/// Techniques as written on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum TechniqueName {
+    /// Light passes through everything.
+    None,
+    /// Depth seen from the light.
+    Map,
+    /// Stencil volumes counted in front of what is seen.
+    VolumeDepthPass,
+    /// Stencil volumes counted behind what is seen.
+    VolumeDepthFail,
+    /// Casters flattened on to the largest planes.
+    Planar,
+    /// One ray a pixel: the truth.
+    Raytraced,
+}
+
+impl TechniqueName {
+    fn technique(self) -> ShadowTechnique {
+        match self {
+            TechniqueName::None => ShadowTechnique::None,
+            TechniqueName::Map => ShadowTechnique::Map,
+            TechniqueName::VolumeDepthPass => ShadowTechnique::VolumeDepthPass,
+            TechniqueName::VolumeDepthFail => ShadowTechnique::VolumeDepthFail,
+            TechniqueName::Planar => ShadowTechnique::Planar,
+            TechniqueName::Raytraced => ShadowTechnique::Raytraced,
+        }
+    }
+}
+
+impl ShadowOptions {
+    /// Settings of the shadows that are to be drawn.
+    #[must_use]
+    pub fn settings(&self) -> Option<ShadowSettings> {
+        self.shadows.map(|name| self.settings_of(name))
+    }
+
+    /// The two techniques that are to be compared.
+    ///
+    /// # Errors
+    /// There are not two.
+    pub fn compared(&self) -> Result<Option<[ShadowSettings; 2]>> {
+        match self.compare_shadows.as_deref() {
+            None => Ok(None),
+            Some(&[a, b]) => Ok(Some([self.settings_of(a), self.settings_of(b)])),
+            Some(_) => anyhow::bail!("--compare-shadows takes two techniques, as in map,raytraced"),
+        }
+    }
+
+    fn settings_of(&self, name: TechniqueName) -> ShadowSettings {
+        ShadowSettings { light_samples: self.light_samples, ..ShadowSettings::new(name.technique()) }
+    }
+}
+
+/// Writes where the techniques differ and prints in how many pixels.
+///
+/// # Errors
+/// The picture cannot be drawn or written.
+pub fn compare_shadows(
+    gpu: &Gpu,
+    baked: BakedScene,
+    camera: &Camera,
+    size: [u32; 2],
+    [a, b]: &[ShadowSettings; 2],
+    output: &Path,
+) -> Result<()> {
+    let buffers = SceneBuffers::new(gpu, &baked);
+    let shadows = ShadowScene::new(gpu, Arc::new(baked.scene));
+    let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
+    let decisions = |settings| Decisions::new(gpu, &buffers, &shadows, &view, size, settings);
+    let (of_a, of_b) = (decisions(a)?, decisions(b)?);
+    // The edges that may move are those of the truth, where it is one of the two.
+    let is_truth_first = a.technique == ShadowTechnique::Raytraced;
+    let (compared, reference) = if is_truth_first { (&of_b, &of_a) } else { (&of_a, &of_b) };
+    let difference = shadow_difference(compared, reference);
+    save_display(output, size, &difference.picture(reference))?;
+    let num_pixels = difference.count.iter().filter(|&&count| count > 0).count();
+    println!("{num_pixels} of {} pixels differ", difference.count.len());
+    println!("shadow difference: {:.3} %", 100.0 * difference.share);
+    Ok(())
+}

@@ -1,0 +1,51 @@
+//! Drawing the solid surfaces of a scene: all but those that blend, with the faces that a look shows.
+
+use crate::gpu::SceneBuffers;
+use crate::gpu::scene_buffers::{Batch, Faces};
+use crate::render::Look;
+use crate::scene::AlphaMode;
+
+/// One pipeline for surfaces whose backs are left out, one for those with two faces.
+pub struct SolidPipelines {
+    culled: wgpu::RenderPipeline,
+    two_faced: wgpu::RenderPipeline,
+}
+
+impl SolidPipelines {
+    /// Both pipelines, made for each way to cull.
+    pub fn new(pipeline: impl Fn(Option<wgpu::Face>) -> wgpu::RenderPipeline) -> Self {
+        Self { culled: pipeline(Some(wgpu::Face::Back)), two_faced: pipeline(None) }
+    }
+
+    /// The pipeline of a batch.
+    pub fn of(&self, batch: &Batch, look: &Look) -> &wgpu::RenderPipeline {
+        let culls = match batch.faces {
+            Faces::Front => look.cull_back,
+            Faces::FrontOfTwins => true,
+            Faces::Both => false,
+        };
+        if culls { &self.culled } else { &self.two_faced }
+    }
+
+    /// Draws all solid batches; for passes that need no material because the depth prepass has cut the holes.
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneBuffers, look: &Look) {
+        bind_mesh(pass, scene);
+        for batch in solid_batches(scene) {
+            pass.set_pipeline(self.of(batch, look));
+            pass.draw_indexed(batch.indices.clone(), 0, 0..1);
+        }
+    }
+}
+
+/// Makes the scene's vertices and indices current.
+pub fn bind_mesh(pass: &mut wgpu::RenderPass<'_>, scene: &SceneBuffers) {
+    if !scene.batches.is_empty() {
+        pass.set_vertex_buffer(0, scene.vertices.slice(..));
+        pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
+    }
+}
+
+/// Batches that write depth.
+pub fn solid_batches(scene: &SceneBuffers) -> impl Iterator<Item = &Batch> {
+    scene.batches.iter().filter(|batch| batch.alpha_mode != AlphaMode::Blend)
+}
