@@ -1,5 +1,6 @@
 //! Floor 5: the whole job as one recipe.
 
+mod certificate;
 pub mod measure;
 mod method;
 mod report;
@@ -28,6 +29,7 @@ pub use report::{Flux, Report};
 pub use settings::{BakeSettings, Quality};
 pub use watch::{Seconds, Watch};
 
+use certificate::{Closure, peak_memory, reciprocity_residual};
 use method::Seer;
 use settings::PENUMBRA_RAYS_ON_ELEMENTS;
 use watch::Clock;
@@ -139,9 +141,12 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         unshot_share,
         cancelled: watch.is_cancelled(),
         energy: solution.energy.into(),
+        closure: Closure::of(&mesh, &rows),
+        reciprocity_residual: reciprocity_residual(&mesh, &rows),
         backface_share: gathered.mean_back_share,
         hidden_vertices: gathered.is_valid.iter().filter(|valid| !**valid).count(),
         seconds: clock.seconds,
+        peak_memory_bytes: peak_memory(),
     };
     Ok(Bake { baked, report, solution, mesh })
 }

@@ -4,6 +4,7 @@ use glam::DVec3;
 use serde::Serialize;
 
 use super::Method;
+use super::certificate::Closure;
 use super::settings::Quality;
 use super::watch::Seconds;
 use crate::base::colour::LUMINANCE;
@@ -44,12 +45,18 @@ pub struct Report {
     pub cancelled: bool,
     /// Where the light went, luminous flux in lumen.
     pub energy: Flux,
+    /// Share of the patches' views that ends on surfaces that receive.
+    pub closure: Closure,
+    /// How far the form factors between patches are from A_i F_ij = A_j F_ji.
+    pub reciprocity_residual: f64,
     /// Share of back faces that the gathering sites saw.
     pub backface_share: f32,
     /// Sites found inside or behind something.
     pub hidden_vertices: usize,
     /// By stage.
     pub seconds: Seconds,
+    /// Most memory that the program has held until the end of the bake; null where the system does not tell.
+    pub peak_memory_bytes: Option<u64>,
 }
 
 /// Luminous flux, lumen.

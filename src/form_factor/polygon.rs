@@ -69,7 +69,7 @@ impl Polygon {
         }
         let polygon = Self::measured(corners);
         let size = polygon.size();
-        if !(polygon.area > 1e-14 * size * size) {
+        if polygon.area <= 1e-14 * size * size {
             return Err(PolygonError::NoArea);
         }
         let plane = polygon.plane();

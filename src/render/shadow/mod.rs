@@ -1,7 +1,7 @@
 //! The shadow laboratory: direct light from the lights themselves, in the shadows of a technique of one's choice.
 //!
 //! The stored light of a bake needs no shadow; direct light is added on top, light sample by light sample, wherever
-//! [`real_time`] finds no shadow. Each technique is a file here; [`raytraced`] is the truth against which
+//! [`real_time`] finds no shadow. Each technique is a file here; `raytraced` is the truth against which
 //! [`difference`] measures the others. Deliberately absent: shadows of surfaces that blend (they count as solid from
 //! half opacity on) and shadows on them (they keep the light of the bake).
 
