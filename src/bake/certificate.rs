@@ -86,7 +86,7 @@ mod tests {
         let scene = builtin::cornell();
         let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.5, patch_size: 1.0 }).expect("a small mesh");
         let tracer = Tracer::new(&scene);
-        let mut rows = RowStore::new(mesh.patches.len(), 8, usize::MAX);
+        let mut rows = RowStore::new(mesh.patches.len(), 32, usize::MAX);
         let all: Vec<PatchId> = (0..mesh.patches.len()).map(PatchId::new).collect();
         let mut method = Hemispheres::new(&tracer, &mesh, 512);
         rows.find(&all, &mesh, &Sites::new(&scene), &mut method, &Unwatched).expect("rays do not fail");
