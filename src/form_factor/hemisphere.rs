@@ -19,8 +19,11 @@ use crate::base::sampling::{hash, morton_2d, r2, tangent_frame, unit_float};
 use crate::patch::PatchMesh;
 use crate::trace::{Hit, Tracer};
 
-/// Viewpoints between two looks at whether to go on.
-const BATCH: usize = 256;
+/// Rays between two looks at whether to go on: a few milliseconds, for a window that wants to draw meanwhile.
+const RAYS_A_BATCH: usize = 1 << 15;
+
+/// Viewpoints that keep all cores busy.
+const MIN_BATCH: usize = 16;
 
 /// Finds form factors of one scene by rays.
 pub struct Hemispheres<'a> {
@@ -105,7 +108,7 @@ impl FormFactors for Hemispheres<'_> {
         take: &(dyn Fn(usize, &Row) + Sync),
     ) -> Result<usize, FormFactorError> {
         let mut done = 0;
-        for batch in viewpoints.chunks(BATCH) {
+        for batch in viewpoints.chunks((RAYS_A_BATCH / self.table.len()).max(MIN_BATCH)) {
             if !go_on() {
                 break;
             }

@@ -17,7 +17,7 @@ use crate::scene::{Light, Scene};
 use crate::trace::Tracer;
 
 /// Places between two looks at the watch.
-const BATCH: usize = 256;
+const BATCH: usize = 64;
 
 /// Rays that decide whether a place is in a penumbra.
 const NUM_PILOT_RAYS: u32 = 16;
