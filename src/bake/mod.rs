@@ -16,6 +16,7 @@ use crate::gpu::Gpu;
 use crate::patch::{MeshError, PatchMesh};
 use crate::radiosity::Field;
 use crate::radiosity::direct::DirectLight;
+use crate::radiosity::element_light::direct_on_elements;
 use crate::radiosity::gather::{Gathered, gather};
 use crate::radiosity::gathering::{polish, reflected_radiosity};
 use crate::radiosity::progressive::{Progressive, Solution};
@@ -91,9 +92,8 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     let tracer = Tracer::new(scene);
     let lights = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays);
     let mut direct = lights.irradiance(&places, watch);
-    let spread = sites.of_elements(&mesh, settings.points_an_element);
-    let on_elements = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS).irradiance(&spread, watch);
-    let on_elements = on_elements.mean_of_each(settings.points_an_element);
+    let lights = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS);
+    let on_elements = direct_on_elements(&mesh, &sites, &lights, &tracer, settings.points_an_element, watch);
     clock.lap(Stage::Direct);
 
     // Shoot what the elements reflect, greatest power first.

@@ -55,19 +55,4 @@ impl Field {
     pub fn values_mut(&mut self) -> &mut [Vec3] {
         &mut self.values
     }
-
-    /// The mean over each `count` places in a row.
-    #[must_use]
-    pub fn mean_of_each(&self, count: usize) -> Self {
-        let num_places = self.num_places() / count;
-        let mut mean = Self::zero(num_places, self.num_groups);
-        for place in 0..num_places {
-            for i in 0..count {
-                for (sum, &value) in mean.at_mut(place).iter_mut().zip(self.at(place * count + i)) {
-                    *sum += value / count as f32;
-                }
-            }
-        }
-        mean
-    }
 }

@@ -6,6 +6,7 @@
 
 pub mod cache;
 pub mod direct;
+pub mod element_light;
 mod emitter;
 pub mod field;
 pub mod gather;
