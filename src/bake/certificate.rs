@@ -27,7 +27,7 @@ impl Closure {
             return Self { min: 0.0, mean: 0.0, max: 0.0 };
         }
         Self {
-            min: sums.iter().copied().fold(f32::INFINITY, f32::min),
+            min: sums.iter().copied().fold(f32::INFINITY, f32::min).max(0.0),
             mean: sums.iter().sum::<f32>() / sums.len() as f32,
             max: sums.iter().copied().fold(0.0, f32::max),
         }

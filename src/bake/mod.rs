@@ -3,6 +3,7 @@
 mod certificate;
 pub mod measure;
 mod method;
+pub mod patch_view;
 mod report;
 mod settings;
 mod watch;

@@ -5,6 +5,7 @@ pub mod bake_options;
 pub mod form_factors;
 pub mod info;
 pub mod measure;
+mod patch_view;
 pub mod ray_options;
 pub mod render;
 pub mod shadow_options;

@@ -7,10 +7,12 @@ use clap::{Args, ValueEnum};
 use glam::Vec3;
 
 use super::bake_options::{BakeOptions, bake_device, lit_scene, load, positive};
+use super::patch_view::{patch_viewpoint, view_from_patch};
 use super::ray_options::{RayOptions, RendererName};
 use super::shadow_options::{ShadowOptions, compare_shadows};
 use crate::baked::{self, BakedScene, VertexLight};
 use crate::gpu::Gpu;
+use crate::raytrace::MeasuringPoint;
 use crate::render::picture::check_size;
 use crate::render::{Exposure, FileKind, Look, Picture, Raster, compare, develop, picture};
 use crate::scene::{Camera, Scene};
@@ -28,6 +30,11 @@ pub struct RenderArgs {
     /// Camera of the scene, by name or by number from 0 [default: the first, or an overview where there is none].
     #[arg(long, value_name = "NAME|INDEX")]
     pub camera: Option<String>,
+    /// Draws what a patch sees instead: the unfolded hemicube at this place with this normal; a second picture,
+    /// IMG-items.png, has a colour for each element.
+    #[arg(long, value_name = "X,Y,Z,NX,NY,NZ", value_parser = patch_viewpoint, allow_hyphen_values = true,
+          conflicts_with_all = ["camera", "renderer", "reference"])]
+    pub hemicube_at: Option<MeasuringPoint>,
     /// Pixels across and down.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
     pub size: Size,
@@ -95,6 +102,9 @@ pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
     }
     let reference = args.reference.as_deref().map(Raster::load).transpose()?;
     let scene = load(&args.scene)?;
+    if let Some(at) = &args.hemicube_at {
+        return view_from_patch(scene, at, args, is_quiet);
+    }
     let camera = choose_camera(&scene, args.camera.as_deref())?;
     if let Some(techniques) = args.shadows.compared()? {
         let gpu = Gpu::headless()?;
@@ -140,7 +150,7 @@ fn choose_camera(scene: &Scene, wanted: Option<&str>) -> Result<Camera> {
 }
 
 /// The scene with the light that is to be shown.
-fn light(gpu: &Gpu, scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
+pub(super) fn light(gpu: &Gpu, scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
     let needs_no_bake = match args.lighting() {
         Lighting::Ambient => true,
         Lighting::Direct => args.shadows.shadows.is_some(),
@@ -170,7 +180,7 @@ fn dark(scene: Scene) -> BakedScene {
     BakedScene { light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()), scene }
 }
 
-fn look(args: &RenderArgs, baked: &BakedScene) -> Look {
+pub(super) fn look(args: &RenderArgs, baked: &BakedScene) -> Look {
     let all = Look { exposure: args.exposure, shadows: args.shadows.settings(), ..Look::default() };
     // Ambient light takes the place of the stored light; shadows bring direct light of their own.
     let shadowed = f32::from(u8::from(all.shadows.is_some()));

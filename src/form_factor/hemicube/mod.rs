@@ -66,6 +66,27 @@ impl<'a> Hemicubes<'a> {
         self.run(viewpoints, &|| true, |_, _, _| {}).map(|_| ())
     }
 
+    /// Width of the hemicubes, pixels.
+    #[must_use]
+    pub fn size_px(&self) -> u32 {
+        self.layout.n
+    }
+
+    /// The element that each pixel of one hemicube sees, if any: the faces one below the other, the top first, row by row.
+    ///
+    /// # Errors
+    /// The device failed.
+    pub fn elements_seen(&mut self, viewpoint: &Viewpoint) -> Result<Vec<Option<u32>>, FormFactorError> {
+        let n = self.layout.n as usize;
+        let seen = std::cell::RefCell::new(Vec::with_capacity(3 * n * n));
+        self.run(std::slice::from_ref(viewpoint), &|| true, |items, _, _| {
+            let lines = items.chunks(ATLAS_WIDTH as usize).take(3 * n);
+            seen.borrow_mut()
+                .extend(lines.flat_map(|line| &line[..n]).map(|item| item.checked_sub(row::FIRST_ELEMENT)));
+        })?;
+        Ok(seen.into_inner())
+    }
+
     /// Draws the viewpoints atlas by atlas and hands each finished atlas to `finish` with the index of its first
     /// viewpoint and their number.
     fn run(
