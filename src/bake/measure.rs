@@ -12,7 +12,7 @@ use crate::form_factor::Viewpoint;
 use crate::patch::PatchMesh;
 use crate::radiosity::direct::DirectLight;
 use crate::radiosity::sites::Sites;
-use crate::raytrace::{MeasuringPoint, gathered_irradiance, stored_irradiance};
+use crate::raytrace::{GatherPrecision, MeasuringPoint, gathered_irradiance, stored_irradiance};
 use crate::scene::Scene;
 use crate::trace::Tracer;
 
@@ -26,11 +26,11 @@ pub struct Measured {
 }
 
 /// How closely is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasureSettings {
-    /// Rays a point that gather indirect light.
-    pub num_rays: u32,
-    /// Rays a point and emitter in penumbrae.
+    /// Rays that gather indirect light.
+    pub gather: GatherPrecision,
+    /// Most rays a point and emitter in penumbrae.
     pub num_penumbra_rays: u32,
 }
 
@@ -38,12 +38,12 @@ impl MeasureSettings {
     /// The values of a preset.
     #[must_use]
     pub fn preset(quality: Quality) -> Self {
-        let num_rays = match quality {
-            Quality::Draft => 1024,
-            Quality::Medium => 4096,
-            Quality::High => 16384,
+        let (num_penumbra_rays, max_rays, error) = match quality {
+            Quality::Draft => (256, 1 << 13, 0.02),
+            Quality::Medium => (1024, 1 << 16, 6e-3),
+            Quality::High => (4096, 1 << 18, 3e-3),
         };
-        Self { num_rays, num_penumbra_rays: num_rays / 4 }
+        Self { gather: GatherPrecision { min_rays: 1024, max_rays, error }, num_penumbra_rays }
     }
 }
 
@@ -66,13 +66,12 @@ pub fn measure(
     let viewpoints: Vec<Viewpoint> = points.iter().enumerate().map(viewpoint).collect();
     let tracer = Tracer::new(scene);
     let direct = DirectLight::new(scene, mesh, &tracer, settings.num_penumbra_rays).irradiance(&viewpoints, progress);
+    let total_at = |at| if direct.num_groups() > 0 { direct.total(at) } else { Vec3::ZERO };
+    let direct: Vec<Vec3> = (0..points.len()).map(total_at).collect();
     let elements = Tracer::new(&baked.scene);
-    let indirect = gathered_irradiance(&elements, baked, points, settings.num_rays, progress)?;
-    let measured = |(at, indirect)| {
-        let direct = if direct.num_groups() > 0 { direct.total(at) } else { Vec3::ZERO };
-        Measured { total: direct + indirect, direct }
-    };
-    Some(indirect.into_iter().enumerate().map(measured).collect())
+    let indirect = gathered_irradiance(&elements, baked, points, &direct, &settings.gather, progress)?;
+    let measured = |(indirect, direct)| Measured { total: direct + indirect, direct };
+    Some(indirect.into_iter().zip(direct).map(measured).collect())
 }
 
 /// The light that is stored at the vertices round each point; none where a point lies on no surface.

@@ -85,7 +85,7 @@ impl BakeSettings {
             points_a_patch: 2,
             cache_tolerance: 0.1,
             points_an_element: 2,
-            num_penumbra_rays: 64,
+            num_penumbra_rays: 256,
         };
         match quality {
             Quality::Draft => Self {
@@ -97,7 +97,7 @@ impl BakeSettings {
                 points_a_patch: 1,
                 cache_tolerance: 0.2,
                 points_an_element: 1,
-                num_penumbra_rays: 32,
+                num_penumbra_rays: 64,
                 ..base
             },
             Quality::Medium => base,
@@ -110,7 +110,7 @@ impl BakeSettings {
                 points_a_patch: 4,
                 cache_tolerance: 0.06,
                 points_an_element: 4,
-                num_penumbra_rays: 256,
+                num_penumbra_rays: 1024,
                 ..base
             },
         }

@@ -2,13 +2,14 @@
 //!
 //! It decides the quality of the picture and is therefore not left to hemicube pixels. Punctual lights take one ray a
 //! place; emissive surfaces take the closed form times the visible share, which few rays find where all of them agree and
-//! many where they do not (in penumbrae).
+//! many where they do not (in penumbrae), until what more rays change is lost in the light of the place.
 
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::emitter::{Emitter, emitters};
+use super::emitter::{Aim, Aims, Emitters};
 use super::field::Field;
+use crate::base::colour::luminance;
 use crate::base::progress::{Progress, Stage};
 use crate::base::sampling::hash;
 use crate::form_factor::Viewpoint;
@@ -19,8 +20,14 @@ use crate::trace::Tracer;
 /// Places between two looks at the watch.
 const BATCH: usize = 64;
 
-/// Rays that decide whether a place is in a penumbra.
-const NUM_PILOT_RAYS: u32 = 16;
+/// Fewest and most rays that decide whether a place is in a penumbra.
+const PILOT_RAYS: [u32; 2] = [16, 64];
+
+/// Share of the rays in penumbrae that decide whether it is one.
+const PILOT_SHARE: u32 = 8;
+
+/// An emitter's visible share is settled when twice the rays change a place's light by less than this.
+const SETTLED: f32 = 2e-3;
 
 /// Smallest share of the irradiance in the brightest place that is worth tracing rays for.
 const NEGLIGIBLE: f32 = 1e-7;
@@ -29,15 +36,15 @@ const NEGLIGIBLE: f32 = 1e-7;
 pub struct DirectLight<'a> {
     scene: &'a Scene,
     tracer: &'a Tracer<'a>,
-    emitters: Vec<Emitter>,
+    emitters: Emitters,
     num_penumbra_rays: u32,
 }
 
 impl<'a> DirectLight<'a> {
-    /// Direct light of all lights of the scene; `num_penumbra_rays` rays a place and emitter within penumbrae.
+    /// Direct light of all lights of the scene; at most `num_penumbra_rays` rays a place and emitter within penumbrae.
     #[must_use]
     pub fn new(scene: &'a Scene, mesh: &PatchMesh, tracer: &'a Tracer<'a>, num_penumbra_rays: u32) -> Self {
-        Self { scene, tracer, emitters: emitters(scene, mesh), num_penumbra_rays }
+        Self { scene, tracer, emitters: Emitters::new(scene, mesh), num_penumbra_rays }
     }
 
     /// The same lights with another number of rays in penumbrae.
@@ -59,22 +66,35 @@ impl<'a> DirectLight<'a> {
             if progress.is_cancelled() {
                 break;
             }
-            values
-                .par_chunks_mut(num_groups)
-                .zip(places)
-                .for_each(|(groups, viewpoint)| self.add_to(viewpoint, groups));
+            values.par_chunks_mut(num_groups).zip(places).for_each_init(
+                || (Aims::default(), Vec::new()),
+                |(aims, tallies), (groups, viewpoint)| self.add_to(viewpoint, aims, tallies, groups),
+            );
             progress.report(Stage::Direct, (batch * BATCH + places.len()) as f32 / viewpoints.len() as f32);
         }
         field
     }
 
     /// Adds the light of every group at one viewpoint.
-    fn add_to(&self, viewpoint: &Viewpoint, groups: &mut [Vec3]) {
+    fn add_to(&self, viewpoint: &Viewpoint, aims: &mut Aims, tallies: &mut Vec<Tally>, groups: &mut [Vec3]) {
         for light in &self.scene.lights {
             groups[light.group.index()] += self.of_punctual(light, viewpoint);
         }
-        for emitter in &self.emitters {
-            groups[emitter.group.index()] += self.of_emitter(emitter, viewpoint);
+        self.emitters.aim(viewpoint.position, viewpoint.normal, aims);
+        // A few rays to each emitter tell which are seen whole or not at all, and how bright the place is.
+        let num_pilot_rays = (self.num_penumbra_rays / PILOT_SHARE).clamp(PILOT_RAYS[0], PILOT_RAYS[1]);
+        tallies.clear();
+        tallies.extend(aims.aims.iter().map(|aim| {
+            let mut tally = Tally::default();
+            self.shoot(aims, aim, viewpoint, num_pilot_rays, &mut tally);
+            tally
+        }));
+        let punctual: f32 = groups.iter().map(|value| luminance(*value)).sum();
+        let lit = |(aim, tally): (&Aim, &Tally)| luminance(aim.unoccluded) * tally.share();
+        let whole = punctual + aims.aims.iter().zip(&*tallies).map(lit).sum::<f32>();
+        for (aim, tally) in aims.aims.iter().zip(tallies) {
+            self.settle(aims, aim, viewpoint, SETTLED * whole, tally);
+            groups[aim.group.index()] += aim.unoccluded * tally.share();
         }
     }
 
@@ -88,31 +108,55 @@ impl<'a> DirectLight<'a> {
         arrival.irradiance * (cosine * passing)
     }
 
-    fn of_emitter(&self, emitter: &Emitter, viewpoint: &Viewpoint) -> Vec3 {
-        let unoccluded = emitter.unoccluded(viewpoint.position, viewpoint.normal);
-        if unoccluded.max_element() <= NEGLIGIBLE {
-            return Vec3::ZERO;
-        }
-        unoccluded * self.visible_share(emitter, viewpoint)
-    }
-
-    /// Share of the emitter's irradiance that is not blocked, by rays to points on it weighted with their contribution.
-    fn visible_share(&self, emitter: &Emitter, viewpoint: &Viewpoint) -> f32 {
-        let seed = hash(viewpoint.seed);
-        let (mut passing, mut whole) = (0.0, 0.0);
-        for index in 0..self.num_penumbra_rays.max(NUM_PILOT_RAYS) {
-            let sample = emitter.sample(index, seed, viewpoint.position, viewpoint.normal);
-            if sample.weight > 0.0 {
-                // The ray ends just before the emitter.
-                let to_emitter = sample.point - viewpoint.position;
-                passing += sample.weight * self.tracer.transmittance(viewpoint.position, to_emitter, 1.0 - 1e-4);
-                whole += sample.weight;
-            }
-            let is_decided = passing <= 1e-4 * whole || passing >= (1.0 - 1e-4) * whole;
-            if index + 1 == NUM_PILOT_RAYS && is_decided {
+    /// Doubles the rays to a partly hidden emitter until they change its luminance by less than `error`.
+    fn settle(&self, aims: &Aims, aim: &Aim, viewpoint: &Viewpoint, error: f32, tally: &mut Tally) {
+        let unoccluded = luminance(aim.unoccluded);
+        while !tally.is_decided() && tally.num_rays < self.num_penumbra_rays {
+            let before = tally.share();
+            let num_rays = (2 * tally.num_rays).min(self.num_penumbra_rays);
+            self.shoot(aims, aim, viewpoint, num_rays, tally);
+            if unoccluded * (tally.share() - before).abs() < error {
                 break;
             }
         }
-        if whole > 0.0 { passing / whole } else { 0.0 }
+    }
+
+    /// Shoots rays at points of an emitter, weighted with their contribution, until there are `num_rays`.
+    fn shoot(&self, aims: &Aims, aim: &Aim, viewpoint: &Viewpoint, num_rays: u32, tally: &mut Tally) {
+        if aim.unoccluded.max_element() <= NEGLIGIBLE {
+            return;
+        }
+        let from = (viewpoint.position, viewpoint.normal, hash(viewpoint.seed));
+        for index in tally.num_rays..num_rays {
+            let sample = self.emitters.sample(aims, aim, index, from);
+            if sample.weight > 0.0 {
+                // The ray ends just before the emitter.
+                let to_emitter = sample.point - viewpoint.position;
+                let passing = self.tracer.transmittance(viewpoint.position, to_emitter, 1.0 - 1e-4);
+                tally.passing += sample.weight * passing;
+                tally.whole += sample.weight;
+            }
+        }
+        tally.num_rays = num_rays;
+    }
+}
+
+/// Rays to one emitter so far: the weight of those that pass, and of all.
+#[derive(Clone, Copy, Default)]
+struct Tally {
+    passing: f32,
+    whole: f32,
+    num_rays: u32,
+}
+
+impl Tally {
+    /// Share of the emitter's irradiance that is not blocked.
+    fn share(&self) -> f32 {
+        if self.whole > 0.0 { self.passing / self.whole } else { 0.0 }
+    }
+
+    /// All rays agree.
+    fn is_decided(&self) -> bool {
+        self.passing <= 1e-4 * self.whole || self.passing >= (1.0 - 1e-4) * self.whole
     }
 }

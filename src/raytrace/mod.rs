@@ -20,7 +20,7 @@ mod surface;
 mod two_pass;
 
 pub use film::{Film, FilmNoise};
-pub use gather::{gathered_irradiance, stored_irradiance};
+pub use gather::{GatherPrecision, gathered_irradiance, stored_irradiance};
 pub use irradiance::{Irradiance, MeasuringPoint, irradiance};
 pub use settings::{Ambient, PathSettings, TwoPassSettings};
 pub use two_pass::two_pass;
