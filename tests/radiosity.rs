@@ -1,9 +1,11 @@
 //! Known answers through the whole route.
 
 use glam::Vec3;
-use hemicube::bake::{BakeSettings, Method, Quality, bake};
+use hemicube::bake::{BakeSettings, Method, Quality, Solver, bake};
+use hemicube::base::colour::luminance;
 use hemicube::base::progress::Unwatched;
 use hemicube::gpu::Gpu;
+use hemicube::scene::builtin;
 
 use crate::support::device::gpu;
 use crate::support::scenes;
@@ -98,4 +100,57 @@ fn a_wall_of_fine_holes_bakes_to_finite_light() {
     }
     let light = bake(Some(gpu), &scene, &settings, &Unwatched).unwrap().baked.light;
     assert!(light.groups.iter().flat_map(|g| g.direct.iter().chain(&g.indirect)).all(|e| e.is_finite()));
+}
+
+/// Luminance of all light at each vertex.
+fn irradiance(bake: &hemicube::bake::Bake) -> Vec<f32> {
+    let group = &bake.baked.light.groups[0];
+    group.direct.iter().zip(&group.indirect).map(|(direct, indirect)| luminance(*direct + *indirect)).collect()
+}
+
+#[test]
+fn three_solvers_agree_on_the_cornell_box() {
+    let scene = builtin::cornell();
+    let solved = |solver| {
+        let settings = BakeSettings {
+            solver,
+            method: Some(Method::Hemisphere),
+            threshold: 1e-3,
+            ..BakeSettings::preset(Quality::Draft)
+        };
+        bake(None, &scene, &settings, &Unwatched).unwrap()
+    };
+    let matrix = solved(Solver::Matrix);
+    let exact = irradiance(&matrix);
+    let mean = exact.iter().sum::<f32>() / exact.len() as f32;
+    for solver in [Solver::Progressive, Solver::Gathering] {
+        let other = solved(solver);
+        let worst = irradiance(&other).iter().zip(&exact).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
+        assert!(worst < 0.005 * mean, "{solver:?}: {worst} of {mean}");
+        assert!(other.report.energy.imbalance < 1e-3, "{:?}", other.report.energy);
+    }
+}
+
+#[test]
+fn each_gathering_pass_brings_the_light_of_one_more_reflection() {
+    // In a furnace the light of k reflections is a partial sum of E (1 + rho + rho^2 + ...).
+    let (reflectance, exitance) = (Vec3::new(0.5, 0.7, 0.2), Vec3::new(1.0, 2.0, 3.0));
+    let scene = scenes::furnace(reflectance, exitance);
+    for passes in 1..=4 {
+        let settings = BakeSettings {
+            element_size: Some(0.3),
+            method: Some(Method::Hemisphere),
+            solver: Solver::Gathering,
+            passes: Some(passes),
+            ..BakeSettings::preset(Quality::Draft)
+        };
+        let bake = bake(None, &scene, &settings, &Unwatched).unwrap();
+        let expected = (0..passes as i32).map(|k| exitance * reflectance.powf(k as f32)).sum::<Vec3>();
+        let group = &bake.baked.light.groups[0];
+        for (direct, indirect) in group.direct.iter().zip(&group.indirect) {
+            let found = *direct + *indirect;
+            assert!(((found - expected) / expected).abs().max_element() < 5e-3, "pass {passes}: {found} {expected}");
+        }
+        assert_eq!(bake.report.passes, passes);
+    }
 }

@@ -6,6 +6,7 @@ mod method;
 pub mod patch_view;
 mod report;
 mod settings;
+mod solve;
 mod watch;
 
 use thiserror::Error;
@@ -18,9 +19,9 @@ use crate::patch::{MeshError, PatchMesh};
 use crate::radiosity::Field;
 use crate::radiosity::direct::DirectLight;
 use crate::radiosity::element_light::direct_on_elements;
+use crate::radiosity::full_matrix::MatrixTooLarge;
 use crate::radiosity::gather::{Gathered, gather};
-use crate::radiosity::gathering::{polish, reflected_radiosity};
-use crate::radiosity::progressive::{Progressive, Solution};
+use crate::radiosity::progressive::Solution;
 use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, vertex_light};
 use crate::radiosity::sites::Sites;
 use crate::scene::Scene;
@@ -28,12 +29,13 @@ use crate::trace::Tracer;
 
 pub use method::Method;
 pub use report::{Flux, Report};
-pub use settings::{BakeSettings, Quality};
+pub use settings::{BakeSettings, Quality, Solver};
 pub use watch::{Seconds, Watch};
 
 use certificate::{Closure, peak_memory, reciprocity_residual};
 use method::Seer;
 use settings::PENUMBRA_RAYS_ON_ELEMENTS;
+use solve::{Solved, Task};
 use watch::Clock;
 
 /// A finished (or cancelled) bake.
@@ -60,6 +62,9 @@ pub enum BakeError {
     /// Hemicubes were asked for where nothing can draw them.
     #[error("hemicubes need a device that draws them; the hemisphere method needs none")]
     NoDevice,
+    /// The full matrix is for small scenes.
+    #[error(transparent)]
+    Matrix(#[from] MatrixTooLarge),
     /// Nothing shines.
     #[error("the scene {0} has no light: no emissive material and no light of KHR_lights_punctual")]
     NoLight(String),
@@ -97,25 +102,17 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     let on_elements = direct_on_elements(&mesh, &sites, &lights, &tracer, settings.points_an_element, watch);
     clock.lap(Stage::Direct);
 
-    // Shoot what the elements reflect, greatest power first.
+    // Carry on what the elements reflect, from patch to patch.
     let seer = Seer::new(method, gpu, &mesh, &tracer)?;
-    let mut shooting = seer.shooting();
-    let mut solver = Progressive::new(&mesh, sites, on_elements, settings.progressive());
-    while !solver.is_done() && !watch.is_cancelled() {
-        if watch.wants_light() {
-            watch.light(&vertex_light(&mesh, &direct, &estimate(&mesh, solver.solution())));
-        }
-        solver.step(&mut *shooting, watch)?;
-    }
-    drop(shooting);
-    let unshot_share = solver.unshot_share();
-    let (solution, rows) = solver.into_parts();
+    let show = |solution: &Solution| watch.light(&vertex_light(&mesh, &direct, &estimate(&mesh, solution)));
+    let task = Task { mesh: &mesh, sites, seer, settings, watch, show: &show };
+    let Solved { solution, rows, radiosity, num_passes, unshot_share, form_factor_seconds } =
+        task.solve(on_elements)?;
     clock.lap(Stage::Solve);
 
     // Collect the indirect light at the vertices.
     let mut gathered = Gathered::nothing(places.len(), scene.light_groups.len());
-    if !watch.is_cancelled() {
-        let radiosity = reflected_radiosity(&mesh, &solution.direct, &polish(&mesh, &solution, &rows));
+    if let Some(radiosity) = radiosity {
         let gather_settings = settings.gather(&sizes);
         gathered = gather(&mesh, &radiosity, &mut *seer.gathering(settings), &places, &gather_settings, watch)?;
     }
@@ -129,7 +126,7 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         scene: scene.name.clone(),
         quality: settings.quality,
         method,
-        solver: "progressive",
+        solver: settings.solver,
         adapter: gpu.map_or_else(|| "none".to_owned(), Gpu::name),
         input_triangles: scene.triangles.len(),
         elements: mesh.elements.len(),
@@ -139,6 +136,7 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         hemicubes: rows.num_viewpoints() + gathered.num_hemicubes,
         hemicube_px: settings.hemicube_px,
         shots: solution.num_shots,
+        passes: num_passes,
         unshot_share,
         cancelled: watch.is_cancelled(),
         energy: solution.energy.into(),
@@ -146,7 +144,7 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         reciprocity_residual: reciprocity_residual(&mesh, &rows),
         backface_share: gathered.mean_back_share,
         hidden_vertices: gathered.is_valid.iter().filter(|valid| !**valid).count(),
-        seconds: clock.seconds,
+        seconds: Seconds { form_factors: form_factor_seconds, ..clock.seconds },
         peak_memory_bytes: peak_memory(),
     };
     Ok(Bake { baked, report, solution, mesh })

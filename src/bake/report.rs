@@ -5,7 +5,7 @@ use serde::Serialize;
 
 use super::Method;
 use super::certificate::Closure;
-use super::settings::Quality;
+use super::settings::{Quality, Solver};
 use super::watch::Seconds;
 use crate::base::colour::LUMINANCE;
 use crate::radiosity::progressive::Energy;
@@ -20,7 +20,7 @@ pub struct Report {
     /// How form factors were found.
     pub method: Method,
     /// How the system was solved.
-    pub solver: &'static str,
+    pub solver: Solver,
     /// The device.
     pub adapter: String,
     /// Triangles of the scene.
@@ -39,6 +39,8 @@ pub struct Report {
     pub hemicube_px: u32,
     /// Patches that shot, repeats counted.
     pub shots: usize,
+    /// Shots a patch, gathering passes (the light of the last is that of as many reflections) or sweeps over the matrix.
+    pub passes: usize,
     /// Share of the first reflected power that was not shot.
     pub unshot_share: f64,
     /// The bake was cancelled before its end.

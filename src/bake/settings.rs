@@ -19,6 +19,19 @@ pub enum Quality {
     High,
 }
 
+/// How the system of patches is solved; all ways lead to one answer.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Solver {
+    /// Shooting, the greatest unshot power first.
+    #[default]
+    Progressive,
+    /// Gathering pass after pass: each brings one more reflection.
+    Gathering,
+    /// The full matrix: small scenes only.
+    Matrix,
+}
+
 /// How a scene is baked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakeSettings {
@@ -34,8 +47,10 @@ pub struct BakeSettings {
     pub hemisphere_rays: u32,
     /// Share of the first unshot power at which shooting ends.
     pub threshold: f32,
-    /// Shots a patch, on average, after which shooting ends.
-    pub max_passes: usize,
+    /// How the system is solved.
+    pub solver: Solver,
+    /// Shots a patch, on average, after which shooting ends (none: 64), or passes of gathering (none: until nothing changes).
+    pub passes: Option<usize>,
     /// Elements that a chosen element size aims at.
     pub target_elements: f64,
     /// Patches that the patch size aims at.
@@ -62,6 +77,9 @@ pub(super) const SHOOTING_RAYS: u32 = 512;
 /// Farthest that gathered light is borrowed from, in element sizes.
 const BORROW_REACH: f32 = 4.0;
 
+/// Shots a patch, on average, after which shooting ends.
+const MAX_SHOTS_A_PATCH: usize = 64;
+
 /// Rows kept between shots.
 const ROW_BYTES: usize = 1 << 30;
 
@@ -79,7 +97,8 @@ impl BakeSettings {
             hemicube_px: 64,
             hemisphere_rays: 1024,
             threshold: 1e-3,
-            max_passes: 64,
+            solver: Solver::Progressive,
+            passes: None,
             target_elements: 40_000.0,
             target_patches: 1_500.0,
             points_a_patch: 2,
@@ -133,7 +152,7 @@ impl BakeSettings {
     pub(super) fn progressive(&self) -> ProgressiveSettings {
         ProgressiveSettings {
             threshold: self.threshold,
-            max_shots_a_patch: self.max_passes,
+            max_shots_a_patch: self.passes.unwrap_or(MAX_SHOTS_A_PATCH),
             points_a_patch: self.points_a_patch,
             patches_a_batch: 64,
             row_bytes: ROW_BYTES,

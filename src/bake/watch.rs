@@ -28,7 +28,9 @@ pub struct Seconds {
     pub mesh: f64,
     /// Direct light.
     pub direct: f64,
-    /// Form factors and shooting.
+    /// Form factors of patches, a part of `solve`.
+    pub form_factors: f64,
+    /// The system of patches.
     pub solve: f64,
     /// Vertex light.
     pub gather: f64,

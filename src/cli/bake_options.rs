@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
-use crate::bake::{Bake, BakeSettings, Method, Quality, bake};
+use crate::bake::{Bake, BakeSettings, Method, Quality, Solver, bake};
 use crate::baked::{self, BakedScene};
 use crate::gpu::Gpu;
 use crate::scene::{Scene, builtin, gltf};
@@ -28,9 +28,18 @@ pub struct BakeOptions {
     /// faster one here].
     #[arg(long, value_enum, value_name = "METHOD")]
     pub method: Option<MethodName>,
-    /// Ends after this many shots a patch on average [default: 64].
-    #[arg(long, value_name = "N")]
-    pub passes: Option<usize>,
+    /// How the system is solved: by shooting, by gathering pass after pass, or as a full matrix (small scenes); all lead to
+    /// one answer.
+    #[arg(long, value_enum, value_name = "SOLVER", default_value = "progressive")]
+    pub solver: SolverName,
+    /// Gathering ends with the light of N reflections, 1 being direct light alone [default: when nothing changes];
+    /// progressive refinement ends after N shots a patch on average [default: 64].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub passes: Option<u32>,
+    /// Progressive refinement ends when this share of the first reflected light is unshot [default: 0.01, 0.001 or 0.0003 by
+    /// preset].
+    #[arg(long, value_name = "X", value_parser = positive)]
+    pub threshold: Option<f32>,
 }
 
 /// Presets as written on the command line.
@@ -53,6 +62,17 @@ pub enum MethodName {
     Hemisphere,
 }
 
+/// Solvers as written on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SolverName {
+    /// Shooting, the greatest unshot power first.
+    Progressive,
+    /// Gathering pass after pass.
+    Gathering,
+    /// The full matrix.
+    Matrix,
+}
+
 impl BakeOptions {
     /// The settings that the options mean.
     #[must_use]
@@ -69,7 +89,13 @@ impl BakeOptions {
                 MethodName::Hemicube => Method::Hemicube,
                 MethodName::Hemisphere => Method::Hemisphere,
             }),
-            max_passes: self.passes.unwrap_or(preset.max_passes),
+            solver: match self.solver {
+                SolverName::Progressive => Solver::Progressive,
+                SolverName::Gathering => Solver::Gathering,
+                SolverName::Matrix => Solver::Matrix,
+            },
+            passes: self.passes.map(|passes| passes as usize),
+            threshold: self.threshold.unwrap_or(preset.threshold),
             ..preset
         }
     }

@@ -1,8 +1,9 @@
-//! Gathering on the patches with kept rows: the cure for the proximity error of shooting.
+//! Gathering on the patches, pass after pass: the k-th pass brings the light of the k-th reflection.
 //!
-//! A shooter is one or a few points; an element close to it receives too much or too little. Seen from the receiver the
-//! same row is exact in its neighbourhood, and sums to one in a closed room. So once shooting has brought the light near
-//! its place, patches gather until the system B = E + rho F B holds for the rows as they are.
+//! Each pass every patch collects what all others reflect. From the dark that is the classic series of pictures; from the
+//! answer of progressive refinement it is the cure for the proximity error of shooting: a shooter is one or a few points,
+//! and an element close to it receives too much or too little, whereas the same row seen from the receiver is exact in its
+//! neighbourhood and sums to one in a closed room.
 //!
 //! Source: Goral, Torrance, Greenberg, Battaile 1984 (the system); Baum, Rushmeier, Winget 1989 (why shooting errs).
 
@@ -10,7 +11,6 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use super::field::Field;
-use super::progressive::Solution;
 use super::rows::RowStore;
 use crate::base::ids::PatchId;
 use crate::patch::PatchMesh;
@@ -21,35 +21,41 @@ const TOLERANCE: f32 = 1e-4;
 /// The slowest room (reflectance 0.99) loses 1 % a pass.
 const MAX_PASSES: usize = 1000;
 
-/// Indirect irradiance on patches `[p][g]`: that of the solution where no row is kept, else the solution of the system.
-#[must_use]
-pub fn polish(mesh: &PatchMesh, solution: &Solution, rows: &RowStore) -> Field {
-    let num_groups = solution.direct.num_groups();
-    let mut on_patches = mean_over_patches(mesh, &solution.indirect);
-    for _ in 0..MAX_PASSES {
-        let radiosity = reflected_radiosity(mesh, &solution.direct, &on_patches);
-        let next: Vec<Option<Vec<Vec3>>> = (0..mesh.patches.len())
-            .into_par_iter()
-            .map(|p| {
-                let row = rows.get(PatchId::new(p))?;
-                let mut sums = vec![Vec3::ZERO; num_groups];
-                for entry in &row.entries {
-                    for (sum, &value) in sums.iter_mut().zip(radiosity.at(entry.element.index())) {
-                        *sum += entry.factor * value;
-                    }
+/// One pass: indirect irradiance `[p][g]` becomes what the patches gather from it and from the direct light on elements;
+/// patches whose row is not kept stay as they are. Returns the largest change, relative to the brightest patch.
+///
+/// Equation: I_p = sum over elements of F_pe rho_e (D_e + I of e's patch).
+pub fn gather_pass(mesh: &PatchMesh, direct: &Field, rows: &RowStore, on_patches: &mut Field) -> f32 {
+    let radiosity = reflected_radiosity(mesh, direct, on_patches);
+    let next: Vec<Option<Vec<Vec3>>> = (0..mesh.patches.len())
+        .into_par_iter()
+        .map(|p| {
+            let row = rows.get(PatchId::new(p))?;
+            let mut sums = vec![Vec3::ZERO; direct.num_groups()];
+            for entry in &row.entries {
+                for (sum, &value) in sums.iter_mut().zip(radiosity.at(entry.element.index())) {
+                    *sum += entry.factor * value;
                 }
-                Some(sums)
-            })
-            .collect();
-        let brightest = (0..mesh.patches.len()).map(|p| on_patches.total(p).max_element()).fold(0.0, f32::max);
-        let mut change = 0.0f32;
-        for (p, gathered) in next.into_iter().enumerate() {
-            for (value, gathered) in on_patches.at_mut(p).iter_mut().zip(gathered.into_iter().flatten()) {
-                change = change.max((gathered - *value).abs().max_element());
-                *value = gathered;
             }
+            Some(sums)
+        })
+        .collect();
+    let (mut change, mut brightest) = (0.0f32, f32::MIN_POSITIVE);
+    for (p, gathered) in next.into_iter().enumerate() {
+        brightest = brightest.max(on_patches.total(p).max_element());
+        for (value, gathered) in on_patches.at_mut(p).iter_mut().zip(gathered.into_iter().flatten()) {
+            change = change.max((gathered - *value).abs().max_element());
+            *value = gathered;
         }
-        if change <= TOLERANCE * brightest {
+    }
+    change / brightest
+}
+
+/// Gathers until the system B = E + rho F B holds for the rows as they are, beginning with `on_patches` `[p][g]`.
+#[must_use]
+pub fn polish(mesh: &PatchMesh, direct: &Field, rows: &RowStore, mut on_patches: Field) -> Field {
+    for _ in 0..MAX_PASSES {
+        if gather_pass(mesh, direct, rows, &mut on_patches) <= TOLERANCE {
             break;
         }
     }
@@ -71,7 +77,8 @@ pub fn reflected_radiosity(mesh: &PatchMesh, direct: &Field, indirect_on_patches
 }
 
 /// Mean over each patch of a field on elements, weighted by area.
-fn mean_over_patches(mesh: &PatchMesh, on_elements: &Field) -> Field {
+#[must_use]
+pub fn mean_over_patches(mesh: &PatchMesh, on_elements: &Field) -> Field {
     let mut mean = Field::zero(mesh.patches.len(), on_elements.num_groups());
     for (e, element) in mesh.elements.iter().enumerate() {
         let share = element.area / mesh.patches[element.patch.index()].area.max(f32::MIN_POSITIVE);

@@ -1,14 +1,16 @@
 //! Floor 4: the light itself.
 //!
 //! The route through this floor: [`sites`] says where irradiance is wanted, [`direct`] brings what comes straight from the
-//! lights, [`progressive`] shoots it on from patch to patch until little is left unshot, [`gathering`] polishes the answer
-//! with the rows that were kept, [`gather`] collects the indirect light at every site, and [`reconstruct`] puts it on the mesh that is drawn.
+//! lights, one of three solvers carries it on from patch to patch ([`progressive`] refinement, [`gathering`] pass after pass,
+//! the [`full_matrix`]), [`gather`] collects the indirect light at every site, and [`reconstruct`] puts it on the mesh that
+//! is drawn.
 
 pub mod cache;
 pub mod direct;
 pub mod element_light;
 mod emitter;
 pub mod field;
+pub mod full_matrix;
 pub mod gather;
 pub mod gathering;
 pub mod progressive;

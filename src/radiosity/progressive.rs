@@ -6,6 +6,8 @@
 //!
 //! Source: Cohen, Chen, Wallace, Greenberg 1988, "A progressive refinement approach to fast radiosity image generation".
 
+use std::time::Instant;
+
 use glam::{DVec3, Vec3};
 
 use super::field::Field;
@@ -15,7 +17,7 @@ use crate::base::colour::luminance;
 use crate::base::ids::PatchId;
 use crate::base::progress::{Progress, Stage};
 use crate::form_factor::{FormFactorError, FormFactors};
-use crate::patch::PatchMesh;
+use crate::patch::{Element, PatchMesh};
 
 /// How far to go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,6 +63,42 @@ pub struct Energy {
 }
 
 impl Energy {
+    /// The balance of a solution that was gathered: what it reflects is sent out once more, and what comes of that beyond it
+    /// is unshot.
+    #[must_use]
+    pub fn of_gathered(mesh: &PatchMesh, direct: &Field, on_patches: &Field, rows: &RowStore) -> Self {
+        let mut energy = Self::default();
+        let mut reflected = vec![DVec3::ZERO; mesh.patches.len()];
+        for (e, element) in mesh.elements.iter().enumerate() {
+            let p = element.patch.index();
+            let arriving = (direct.total(e) * element.area).as_dvec3();
+            energy.emitted += arriving;
+            energy.take(arriving, element);
+            let whole = (direct.total(e) + on_patches.total(p)) * element.area;
+            reflected[p] += (whole * element.reflectance).as_dvec3();
+        }
+        energy.unshot -= reflected.iter().sum::<DVec3>();
+        for (p, &power) in reflected.iter().enumerate() {
+            let Some(row) = rows.get(PatchId::new(p)) else {
+                energy.unshot += power;
+                continue;
+            };
+            for entry in &row.entries {
+                energy.take(power * f64::from(entry.factor), &mesh.elements[entry.element.index()]);
+            }
+            energy.absorbed += power * f64::from(row.back);
+            energy.escaped += power * f64::from(row.sky);
+        }
+        energy
+    }
+
+    /// Power that arrives at an element is absorbed or waits to be shot.
+    fn take(&mut self, arriving: DVec3, element: &Element) {
+        let reflectance = element.reflectance.as_dvec3();
+        self.absorbed += arriving * (DVec3::ONE - reflectance);
+        self.unshot += arriving * reflectance;
+    }
+
     /// Share of the emitted power that is not accounted for, in the worst channel.
     #[must_use]
     pub fn imbalance(&self) -> f64 {
@@ -134,13 +172,16 @@ impl<'a> Progressive<'a> {
             || self.solution.num_shots >= self.settings.max_shots_a_patch * self.mesh.patches.len()
     }
 
-    /// Lets one batch of patches shoot; false where it was cancelled before all rows were there.
+    /// Lets one batch of patches shoot, unless it is cancelled before all rows are there; returns the seconds that form
+    /// factors took.
     ///
     /// # Errors
     /// The form factors could not be found.
-    pub fn step(&mut self, method: &mut dyn FormFactors, progress: &dyn Progress) -> Result<bool, FormFactorError> {
+    pub fn step(&mut self, method: &mut dyn FormFactors, progress: &dyn Progress) -> Result<f64, FormFactorError> {
         let shooters = self.brightest();
+        let start = Instant::now();
         let is_complete = self.rows.find(&shooters, self.mesh, &self.sites, method, progress)?;
+        let seconds = start.elapsed().as_secs_f64();
         if is_complete {
             for &patch in &shooters {
                 self.shoot(patch);
@@ -149,7 +190,7 @@ impl<'a> Progressive<'a> {
             self.sum_unshot();
             progress.report(Stage::Solve, self.done_share());
         }
-        Ok(is_complete)
+        Ok(seconds)
     }
 
     /// Progress on a logarithmic scale: unshot power falls by a constant factor a pass.

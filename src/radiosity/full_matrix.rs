@@ -1,0 +1,114 @@
+//! The full matrix: all form factors between patches at once, solved by Gauss-Seidel iteration.
+//!
+//! The oldest way and the plainest: for small scenes, and to check the others. The matrix is as large as the square of the
+//! number of patches.
+//!
+//! Source: Goral, Torrance, Greenberg, Battaile 1984; Cohen, Greenberg 1985.
+
+use glam::Vec3;
+use rayon::prelude::*;
+use thiserror::Error;
+
+use super::field::Field;
+use super::rows::RowStore;
+use crate::base::ids::PatchId;
+use crate::patch::PatchMesh;
+
+/// Most bytes of a matrix.
+const MAX_BYTES: usize = 1 << 30;
+
+/// Largest relative change of a sweep at which the system counts as solved.
+const TOLERANCE: f32 = 1e-6;
+
+/// Gauss-Seidel halves the error at least as fast as a pass of gathering does.
+const MAX_SWEEPS: usize = 1000;
+
+/// The matrix would be too large.
+#[derive(Debug, Error)]
+#[error(
+    "a full matrix of {num_patches} patches takes {gib:.1} GiB, more than {max_gib} GiB; take the progressive solver",
+    max_gib = MAX_BYTES >> 30
+)]
+pub struct MatrixTooLarge {
+    /// Rows and columns.
+    pub num_patches: usize,
+    /// Its size.
+    pub gib: f64,
+}
+
+/// Asks whether the matrix of `mesh` is small enough.
+///
+/// # Errors
+/// It is not.
+pub fn check_size(mesh: &PatchMesh) -> Result<(), MatrixTooLarge> {
+    let num_patches = mesh.patches.len();
+    let bytes = num_patches.saturating_mul(num_patches).saturating_mul(size_of::<Vec3>());
+    if bytes > MAX_BYTES {
+        return Err(MatrixTooLarge { num_patches, gib: bytes as f64 / (1u64 << 30) as f64 });
+    }
+    Ok(())
+}
+
+/// Solves for the indirect irradiance `[p][g]` on the patches; those without a row stay dark. Returns the sweeps it took.
+///
+/// Equation: I_p = b_p + sum over q of K_pq I_q with b_p = sum over e of F_pe rho_e D_e and K_pq = sum over e in q of
+/// F_pe rho_e.
+#[must_use]
+pub fn solve(mesh: &PatchMesh, direct: &Field, rows: &RowStore) -> (Field, usize) {
+    let size = mesh.patches.len();
+    // Assemble the matrix and the right side, row by row.
+    let (matrix, right): (Vec<Vec<Vec3>>, Vec<Vec<Vec3>>) =
+        (0..size).into_par_iter().map(|p| equation(mesh, direct, rows, PatchId::new(p))).unzip();
+    let mut solution = Field::from_values(direct.num_groups(), right.concat());
+    // Sweep over the unknowns, each time with the newest values of the others.
+    for sweep in 1..=MAX_SWEEPS {
+        let (mut change, mut brightest) = (0.0f32, f32::MIN_POSITIVE);
+        for p in 0..size {
+            for (g, &right) in right[p].iter().enumerate() {
+                let others: Vec3 = matrix[p].iter().enumerate().map(|(q, &k)| k * solution.at(q)[g]).sum();
+                let own = matrix[p][p];
+                let value = (right + others - own * solution.at(p)[g]) / (Vec3::ONE - own);
+                change = change.max((value - solution.at(p)[g]).abs().max_element());
+                brightest = brightest.max(value.max_element());
+                solution.at_mut(p)[g] = value;
+            }
+        }
+        if change <= TOLERANCE * brightest {
+            return (solution, sweep);
+        }
+    }
+    (solution, MAX_SWEEPS)
+}
+
+/// One row of the matrix, and its right side `[g]`.
+fn equation(mesh: &PatchMesh, direct: &Field, rows: &RowStore, patch: PatchId) -> (Vec<Vec3>, Vec<Vec3>) {
+    let mut matrix = vec![Vec3::ZERO; mesh.patches.len()];
+    let mut right = vec![Vec3::ZERO; direct.num_groups()];
+    for entry in rows.get(patch).map_or(&[][..], |row| &row.entries) {
+        let element = &mesh.elements[entry.element.index()];
+        let reflected = entry.factor * element.reflectance;
+        matrix[element.patch.index()] += reflected;
+        for (sum, &direct) in right.iter_mut().zip(direct.at(entry.element.index())) {
+            *sum += reflected * direct;
+        }
+    }
+    (matrix, right)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patch::MeshSettings;
+    use crate::scene::builtin;
+
+    #[test]
+    fn a_matrix_that_would_not_fit_is_refused() {
+        let scene = builtin::cornell();
+        let settings = |size| MeshSettings { element_size: size, patch_size: size };
+        let coarse = PatchMesh::new(&scene, &settings(0.5)).expect("a small mesh");
+        assert!(check_size(&coarse).is_ok());
+        let fine = PatchMesh::new(&scene, &settings(0.05)).expect("a large mesh");
+        let error = check_size(&fine).expect_err("too many patches");
+        assert!(error.to_string().contains("progressive"), "{error}");
+    }
+}
