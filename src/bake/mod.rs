@@ -4,6 +4,7 @@ mod certificate;
 pub mod measure;
 mod method;
 pub mod patch_view;
+mod refinement;
 mod report;
 mod settings;
 mod solve;
@@ -17,10 +18,11 @@ use crate::form_factor::FormFactorError;
 use crate::gpu::Gpu;
 use crate::patch::{MeshError, PatchMesh};
 use crate::radiosity::Field;
+use crate::radiosity::adaptive::Cut;
 use crate::radiosity::direct::DirectLight;
 use crate::radiosity::element_light::direct_on_elements;
 use crate::radiosity::full_matrix::MatrixTooLarge;
-use crate::radiosity::gather::{Gathered, gather};
+use crate::radiosity::gather::{Gathered, Gatherer};
 use crate::radiosity::progressive::Solution;
 use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, vertex_light};
 use crate::radiosity::sites::Sites;
@@ -34,6 +36,7 @@ pub use watch::{Seconds, Watch};
 
 use certificate::{Closure, peak_memory, reciprocity_residual};
 use method::Seer;
+use refinement::Lighting;
 use settings::PENUMBRA_RAYS_ON_ELEMENTS;
 use solve::{Solved, Task};
 use watch::Clock;
@@ -44,9 +47,7 @@ pub struct Bake {
     pub baked: BakedScene,
     /// The certificate.
     pub report: Report,
-    /// The solution on the elements.
-    pub solution: Solution,
-    /// The mesh that was solved.
+    /// The mesh that its light lies on.
     pub mesh: PatchMesh,
 }
 
@@ -87,19 +88,21 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     // Cut the scene into elements and patches.
     watch.report(Stage::Mesh, 0.0);
     let sizes = settings.mesh_settings(scene);
-    let mesh = PatchMesh::new(scene, &sizes)?;
-    let mut baked = dark_scene(scene, &mesh);
-    watch.mesh(&baked);
+    let (mut cut, mesh) = Cut::new(scene, sizes)?;
+    watch.mesh(&dark_scene(scene, &mesh));
     clock.lap(Stage::Mesh);
 
-    // Direct light at the vertices, to be shown, and on the elements, to be sent on.
+    // Direct light at the vertices, to be shown, with more of them where it changes, and on the elements, to be sent on.
     let sites = Sites::new(scene);
-    let places = sites.of_light_vertices(&mesh);
     let tracer = Tracer::new(scene);
     let lights = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays);
-    let mut direct = lights.irradiance(&places, watch);
-    let lights = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS);
-    let on_elements = direct_on_elements(&mesh, &sites, &lights, &tracer, settings.points_an_element, watch);
+    let lighting =
+        Lighting { lights: &lights, tracer: &tracer, settings, refine: settings.refine(scene, &sizes), watch };
+    let places = sites.of_light_vertices(&mesh);
+    let (mesh, mut direct) = lighting.refine_by_direct(&mut cut, mesh, &places)?;
+    watch.mesh(&dark_scene(scene, &mesh));
+    let few_rays = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS);
+    let on_elements = direct_on_elements(&mesh, &sites, &few_rays, &tracer, settings.points_an_element, watch);
     clock.lap(Stage::Direct);
 
     // Carry on what the elements reflect, from patch to patch.
@@ -108,16 +111,33 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     let task = Task { mesh: &mesh, sites, seer, settings, watch, show: &show };
     let Solved { solution, rows, radiosity, num_passes, unshot_share, form_factor_seconds } =
         task.solve(on_elements)?;
+    let (closure, reciprocity_residual) = (Closure::of(&mesh, &rows), reciprocity_residual(&mesh, &rows));
+    let num_viewpoints = rows.num_viewpoints();
+    drop(rows);
     clock.lap(Stage::Solve);
 
-    // Collect the indirect light at the vertices.
+    // Collect the indirect light at the vertices, with more of them where it changes.
+    let places = sites.of_light_vertices(&mesh);
     let mut gathered = Gathered::nothing(places.len(), scene.light_groups.len());
+    let (mut num_hemicubes, mut backface_share) = (num_viewpoints, 0.0);
+    let mut refined = None;
     if let Some(radiosity) = radiosity {
-        let gather_settings = settings.gather(&sizes);
-        gathered = gather(&mesh, &radiosity, &mut *seer.gathering(settings), &places, &gather_settings, watch)?;
+        let mut gathering = seer.gathering(settings);
+        let mut gatherer = Gatherer::new(&mesh, &radiosity, settings.gather(&sizes));
+        gathered = gatherer.at(&mut *gathering, &places, watch)?;
+        if !watch.is_cancelled() {
+            let light = (direct, gathered);
+            let found = lighting.refine_by_all(&mut cut, mesh.clone(), light, &mut gatherer, &mut *gathering)?;
+            (refined, direct, gathered) = (Some(found.0), found.1, found.2);
+        }
+        num_hemicubes += gatherer.num_hemicubes;
+        backface_share = gatherer.mean_back_share();
     }
     let mut indirect = completed(&gathered, || estimate(&mesh, &solution));
+    let mesh = refined.unwrap_or(mesh);
     fill_hidden(&mesh, &gathered.is_valid, [&mut direct, &mut indirect]);
+    let mut baked = dark_scene(scene, &mesh);
+    watch.mesh(&baked);
     baked.light = vertex_light(&mesh, &direct, &indirect);
     watch.light(&baked.light);
     clock.lap(Stage::Gather);
@@ -131,23 +151,23 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         input_triangles: scene.triangles.len(),
         elements: mesh.elements.len(),
         patches: mesh.patches.len(),
-        vertices: places.len(),
+        vertices: mesh.light_vertices.len(),
         light_groups: scene.light_groups.clone(),
-        hemicubes: rows.num_viewpoints() + gathered.num_hemicubes,
+        hemicubes: num_hemicubes,
         hemicube_px: settings.hemicube_px,
         shots: solution.num_shots,
         passes: num_passes,
         unshot_share,
         cancelled: watch.is_cancelled(),
         energy: solution.energy.into(),
-        closure: Closure::of(&mesh, &rows),
-        reciprocity_residual: reciprocity_residual(&mesh, &rows),
-        backface_share: gathered.mean_back_share,
+        closure,
+        reciprocity_residual,
+        backface_share,
         hidden_vertices: gathered.is_valid.iter().filter(|valid| !**valid).count(),
         seconds: Seconds { form_factors: form_factor_seconds, ..clock.seconds },
         peak_memory_bytes: peak_memory(),
     };
-    Ok(Bake { baked, report, solution, mesh })
+    Ok(Bake { baked, report, mesh })
 }
 
 /// Indirect light at the vertices from an unfinished solution: averages plus the ambient estimate.

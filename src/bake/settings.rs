@@ -2,6 +2,7 @@
 
 use super::Method;
 use crate::patch::MeshSettings;
+use crate::radiosity::adaptive::RefineSettings;
 use crate::radiosity::gather::GatherSettings;
 use crate::radiosity::progressive::ProgressiveSettings;
 use crate::scene::Scene;
@@ -53,6 +54,12 @@ pub struct BakeSettings {
     pub passes: Option<usize>,
     /// Elements that a chosen element size aims at.
     pub target_elements: f64,
+    /// Deviation from the mean of its ends at which an edge is halved, relative to the light there; 0 halves none.
+    pub refine_error: f32,
+    /// Shortest edges that halving makes, in element sizes.
+    pub min_edge: f32,
+    /// About the most elements, as a multiple of those aimed at; small input triangles come on top.
+    pub max_growth: f32,
     /// Patches that the patch size aims at.
     pub target_patches: f64,
     /// Hemicubes a patch.
@@ -69,7 +76,7 @@ pub struct BakeSettings {
 pub(super) const SHOOTING_PX: u32 = 64;
 
 /// Rays a point and emitter in penumbrae where only the mean over a patch counts.
-pub(super) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 16;
+pub(super) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 64;
 
 /// Rays of the hemispheres that shoot.
 pub(super) const SHOOTING_RAYS: u32 = 512;
@@ -99,7 +106,10 @@ impl BakeSettings {
             threshold: 1e-3,
             solver: Solver::Progressive,
             passes: None,
-            target_elements: 40_000.0,
+            target_elements: 12_000.0,
+            refine_error: 0.04,
+            min_edge: 1.0 / 8.0,
+            max_growth: 8.0,
             target_patches: 1_500.0,
             points_a_patch: 2,
             cache_tolerance: 0.1,
@@ -111,7 +121,10 @@ impl BakeSettings {
                 hemicube_px: 32,
                 hemisphere_rays: 256,
                 threshold: 1e-2,
-                target_elements: 10_000.0,
+                target_elements: 6_000.0,
+                refine_error: 0.1,
+                min_edge: 1.0 / 4.0,
+                max_growth: 3.0,
                 target_patches: 500.0,
                 points_a_patch: 1,
                 cache_tolerance: 0.2,
@@ -124,7 +137,9 @@ impl BakeSettings {
                 hemicube_px: 128,
                 hemisphere_rays: 4096,
                 threshold: 3e-4,
-                target_elements: 160_000.0,
+                target_elements: 40_000.0,
+                refine_error: 0.02,
+                min_edge: 1.0 / 16.0,
                 target_patches: 4_000.0,
                 points_a_patch: 4,
                 cache_tolerance: 0.06,
@@ -143,6 +158,15 @@ impl BakeSettings {
         let element_size = self.element_size.unwrap_or(chosen);
         let patch_size = ((area / self.target_patches).sqrt() as f32).max(element_size);
         MeshSettings { element_size, patch_size }
+    }
+
+    pub(super) fn refine(&self, scene: &Scene, sizes: &MeshSettings) -> RefineSettings {
+        let for_light = f64::from(self.max_growth) * self.target_elements;
+        RefineSettings {
+            max_error: self.refine_error,
+            min_edge: self.min_edge * sizes.element_size,
+            max_elements: for_light as usize + 2 * scene.triangles.len(),
+        }
     }
 
     pub(super) fn gather(&self, sizes: &MeshSettings) -> GatherSettings {

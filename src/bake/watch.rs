@@ -7,7 +7,8 @@ use crate::base::progress::{Progress, Stage, Unwatched};
 
 /// Who watches a bake: progress, and the light so far.
 ///
-/// `mesh` comes once, `light` as often as it is wanted; both are called on the thread that bakes.
+/// `mesh` comes first and again whenever it is refined, `light` as often as it is wanted, always for the last mesh; both are
+/// called on the thread that bakes.
 pub trait Watch: Progress {
     /// The mesh that the light will be on, still dark.
     fn mesh(&self, _dark: &BakedScene) {}

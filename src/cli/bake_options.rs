@@ -21,6 +21,10 @@ pub struct BakeOptions {
     /// Longest element edge in metres [default: chosen from the scene's area and the preset].
     #[arg(long, value_name = "M", value_parser = positive)]
     pub element_size: Option<f32>,
+    /// Elements are halved where light deviates by this share from what lies between their corners; 0 leaves them of one size
+    /// [default: 0.1, 0.04 or 0.02 by preset].
+    #[arg(long, value_name = "SHARE", value_parser = share)]
+    pub refine: Option<f32>,
     /// Width of the gathering hemicubes in pixels, a power of two from 16 to 512 [default: 32, 64 or 128 by preset].
     #[arg(long, value_name = "PX", value_parser = hemicube_size)]
     pub hemicube_size: Option<u32>,
@@ -84,6 +88,7 @@ impl BakeOptions {
         });
         BakeSettings {
             element_size: self.element_size,
+            refine_error: self.refine.unwrap_or(preset.refine_error),
             hemicube_px: self.hemicube_size.unwrap_or(preset.hemicube_px),
             method: self.method.map(|method| match method {
                 MethodName::Hemicube => Method::Hemicube,
@@ -106,6 +111,14 @@ pub fn positive(text: &str) -> Result<f32, String> {
     match text.parse() {
         Ok(value) if value > 0.0 && f32::is_finite(value) => Ok(value),
         _ => Err("must be a positive number".to_owned()),
+    }
+}
+
+/// Parses a number from zero to one.
+pub fn share(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(value) if (0.0..=1.0).contains(&value) => Ok(value),
+        _ => Err("must be a number from 0 to 1".to_owned()),
     }
 }
 

@@ -5,16 +5,18 @@
 
 mod cluster;
 mod optics;
+mod splits;
 mod subdivide;
 mod tree;
 
 use std::ops::Range;
 
-use glam::Vec3;
+use glam::{IVec3, Vec3};
 
 use crate::base::ids::{ElementId, GroupId, PatchId, TriangleId};
 use crate::scene::{Scene, Vertex};
 
+pub use splits::Splits;
 pub use subdivide::MeshError;
 pub use tree::Node;
 
@@ -55,6 +57,25 @@ pub struct LightVertex {
     pub position: Vec3,
     /// Unit shading normal.
     pub normal: Vec3,
+}
+
+impl LightVertex {
+    /// The vertex at the middle of an edge.
+    #[must_use]
+    pub fn between(a: Self, b: Self) -> Self {
+        let normal = (a.normal + b.normal).try_normalize().unwrap_or(a.normal);
+        Self { position: (a.position + b.position) * 0.5, normal }
+    }
+}
+
+/// Names a light vertex by its place and shading normal, in whatever mesh of the scene it occurs.
+pub type LightKey = ([u32; 3], IVec3);
+
+/// The name of the light vertex at a place.
+#[must_use]
+pub fn light_key(position: Vec3, normal: Vec3) -> LightKey {
+    // Adding zero makes -0 and +0 one place.
+    ((position + Vec3::ZERO).to_array().map(f32::to_bits), (normal * 1000.0).round().as_ivec3())
 }
 
 /// The smallest receiver of light: a triangle within one input triangle.
@@ -109,7 +130,15 @@ impl PatchMesh {
     /// # Errors
     /// More elements than fit in memory or in an item id.
     pub fn new(scene: &Scene, settings: &MeshSettings) -> Result<Self, MeshError> {
-        let mut mesh = subdivide::subdivide(scene, settings.element_size)?;
+        Self::refined(scene, settings, &mut Splits::default())
+    }
+
+    /// Cuts a scene, and halves the edges of `splits` beyond that; edges that have to follow are added to them.
+    ///
+    /// # Errors
+    /// As [`Self::new`].
+    pub fn refined(scene: &Scene, settings: &MeshSettings, splits: &mut Splits) -> Result<Self, MeshError> {
+        let mut mesh = splits.cut(scene, settings.element_size)?;
         optics::evaluate(&mut mesh, scene);
         cluster::cluster(&mut mesh, scene, settings.patch_size);
         Ok(mesh)

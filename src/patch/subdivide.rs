@@ -8,11 +8,12 @@
 
 use std::collections::HashMap;
 
-use glam::{IVec3, Vec3};
+use glam::Vec3;
 use thiserror::Error;
 
+use super::splits::Splits;
 use super::tree::Node;
-use super::{Element, LightVertex, PatchMesh, Root};
+use super::{Element, LightKey, LightVertex, PatchMesh, Root, light_key};
 use crate::base::ids::{PatchId, TriangleId};
 use crate::scene::{Scene, Vertex};
 
@@ -36,12 +37,13 @@ pub enum MeshError {
     Empty,
 }
 
-/// Cuts all triangles of the scene; optics and patches of the elements are still blank.
-pub(super) fn subdivide(scene: &Scene, element_size: f32) -> Result<PatchMesh, MeshError> {
+/// Cuts all triangles of the scene, at edges longer than the element size or among `splits`; optics and patches of the
+/// elements are still blank.
+pub(super) fn subdivide(scene: &Scene, element_size: f32, splits: &Splits) -> Result<PatchMesh, MeshError> {
     if scene.triangles.is_empty() {
         return Err(MeshError::Empty);
     }
-    let mut cutter = Cutter::new(scene, element_size);
+    let mut cutter = Cutter::new(scene, element_size, splits);
     for t in 0..scene.triangles.len() {
         cutter.cut(scene, TriangleId::new(t));
         if cutter.mesh.elements.len() > MAX_ELEMENTS {
@@ -51,7 +53,8 @@ pub(super) fn subdivide(scene: &Scene, element_size: f32) -> Result<PatchMesh, M
     Ok(cutter.mesh)
 }
 
-struct Cutter {
+struct Cutter<'a> {
+    splits: &'a Splits,
     mesh: PatchMesh,
     max_edge_squared: f32,
     /// Midpoint vertex of a pair of vertices.
@@ -61,12 +64,13 @@ struct Cutter {
     /// Flipped copies of input vertices, for the backs of double-sided triangles.
     flipped: HashMap<u32, u32>,
     /// Welded light vertices by position bits and quantised normal.
-    welded: HashMap<([u32; 3], IVec3), u32>,
+    welded: HashMap<LightKey, u32>,
 }
 
-impl Cutter {
-    fn new(scene: &Scene, element_size: f32) -> Self {
+impl<'a> Cutter<'a> {
+    fn new(scene: &Scene, element_size: f32, splits: &'a Splits) -> Self {
         let mut cutter = Self {
+            splits,
             mesh: PatchMesh::default(),
             max_edge_squared: element_size * element_size,
             midpoints: HashMap::new(),
@@ -99,8 +103,10 @@ impl Cutter {
 
     /// Cuts a triangle and returns the node of its tree.
     fn bisect(&mut self, corners: [u32; 3], triangle: TriangleId) -> Node {
-        let (apex, length_squared) = self.longest_edge(corners);
-        if length_squared <= self.max_edge_squared {
+        let places = corners.map(|v| self.mesh.vertices[v as usize].position);
+        let (apex, length_squared) = longest_edge(places);
+        let [_, from, to] = [0, 1, 2].map(|k| places[(apex + k) % 3]);
+        if length_squared <= self.max_edge_squared && !self.splits.contains(from, to) {
             self.mesh.elements.push(blank_element(corners, triangle, false));
             return Node::regular(self.mesh.elements.len() as u32 - 1, 0);
         }
@@ -119,20 +125,6 @@ impl Cutter {
                 Node::split(apex, self.mesh.tree.len() as u32 - 2)
             }
         }
-    }
-
-    /// The corner opposite the longest edge, and that edge's squared length.
-    fn longest_edge(&self, corners: [u32; 3]) -> (usize, f32) {
-        let at = corners.map(|v| self.mesh.vertices[v as usize].position);
-        let squared = [0, 1, 2].map(|k| at[(k + 1) % 3].distance_squared(at[(k + 2) % 3]));
-        let apex = if squared[0] >= squared[1] && squared[0] >= squared[2] {
-            0
-        } else if squared[1] >= squared[2] {
-            1
-        } else {
-            2
-        };
-        (apex, squared[apex])
     }
 
     /// Mirrors front elements on to the back of a double-sided triangle, over flipped copies of their vertices.
@@ -180,20 +172,15 @@ impl Cutter {
 
     fn add_light_midpoint(&mut self, pair: [u32; 2]) -> u32 {
         let [low, high] = pair.map(|l| self.mesh.light_vertices[l as usize]);
-        let sum = low.normal + high.normal;
-        let normal = sum.try_normalize().unwrap_or(low.normal);
-        let position = (low.position + high.position) * 0.5;
         let light_vertex = self.mesh.light_vertices.len() as u32;
-        self.mesh.light_vertices.push(LightVertex { position, normal });
+        self.mesh.light_vertices.push(LightVertex::between(low, high));
         self.light_midpoints.insert(pair, light_vertex);
         light_vertex
     }
 
     /// Adds a vertex of the input, welding its light with vertices of the same place and shading normal.
     fn add_welded(&mut self, vertex: Vertex) -> u32 {
-        // Adding zero makes -0 and +0 one place.
-        let place = (vertex.position + Vec3::ZERO).to_array().map(f32::to_bits);
-        let key = (place, (vertex.normal * 1000.0).round().as_ivec3());
+        let key = light_key(vertex.position, vertex.normal);
         let next = self.mesh.light_vertices.len() as u32;
         let light_vertex = *self.welded.entry(key).or_insert(next);
         if light_vertex == next {
@@ -207,6 +194,19 @@ impl Cutter {
         self.mesh.light_vertex_of.push(light_vertex);
         self.mesh.vertices.len() as u32 - 1
     }
+}
+
+/// The corner opposite the longest edge, and that edge's squared length.
+pub(super) fn longest_edge(at: [Vec3; 3]) -> (usize, f32) {
+    let squared = [0, 1, 2].map(|k| at[(k + 1) % 3].distance_squared(at[(k + 2) % 3]));
+    let apex = if squared[0] >= squared[1] && squared[0] >= squared[2] {
+        0
+    } else if squared[1] >= squared[2] {
+        1
+    } else {
+        2
+    };
+    (apex, squared[apex])
 }
 
 fn blank_element(vertices: [u32; 3], triangle: TriangleId, is_back: bool) -> Element {

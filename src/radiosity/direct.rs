@@ -4,6 +4,8 @@
 //! place; emissive surfaces take the closed form times the visible share, which few rays find where all of them agree and
 //! many where they do not (in penumbrae), until what more rays change is lost in the light of the place.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -36,7 +38,7 @@ const NEGLIGIBLE: f32 = 1e-7;
 pub struct DirectLight<'a> {
     scene: &'a Scene,
     tracer: &'a Tracer<'a>,
-    emitters: Emitters,
+    emitters: Arc<Emitters>,
     num_penumbra_rays: u32,
 }
 
@@ -44,13 +46,13 @@ impl<'a> DirectLight<'a> {
     /// Direct light of all lights of the scene; at most `num_penumbra_rays` rays a place and emitter within penumbrae.
     #[must_use]
     pub fn new(scene: &'a Scene, mesh: &PatchMesh, tracer: &'a Tracer<'a>, num_penumbra_rays: u32) -> Self {
-        Self { scene, tracer, emitters: Emitters::new(scene, mesh), num_penumbra_rays }
+        Self { scene, tracer, emitters: Arc::new(Emitters::new(scene, mesh)), num_penumbra_rays }
     }
 
     /// The same lights with another number of rays in penumbrae.
     #[must_use]
-    pub fn with_rays(self, num_penumbra_rays: u32) -> Self {
-        Self { num_penumbra_rays, ..self }
+    pub fn with_rays(&self, num_penumbra_rays: u32) -> Self {
+        Self { emitters: Arc::clone(&self.emitters), num_penumbra_rays, ..*self }
     }
 
     /// Direct irradiance `[place][group]` at all viewpoints, lux per channel; zero for those not reached when cancelled.

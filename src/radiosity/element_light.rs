@@ -53,8 +53,9 @@ pub fn direct_on_elements(
     mean
 }
 
-/// Hardly anything but backs is seen.
-fn is_inside(tracer: &Tracer<'_>, viewpoint: &Viewpoint) -> bool {
+/// The viewpoint lies inside something: it sees hardly anything but backs.
+#[must_use]
+pub fn is_inside(tracer: &Tracer<'_>, viewpoint: &Viewpoint) -> bool {
     let is_back = |i: &u32| {
         let direction = cosine_hemisphere(viewpoint.normal, r2(*i, viewpoint.seed));
         let hit = tracer.nearest(viewpoint.position, direction, f32::INFINITY);

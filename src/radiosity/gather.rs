@@ -6,17 +6,20 @@
 //! Source: Wallace, Elmquist, Haines 1989 (radiosity at vertices); Lischinski, Tampieri, Greenberg 1993 (final gather of
 //! a radiosity solution).
 
-use glam::Vec3;
+use glam::{Mat2, Vec2, Vec3};
 
 use super::cache::IrradianceCache;
 use super::field::Field;
 use crate::base::progress::{Progress, Stage};
-use crate::base::sampling::hash;
+use crate::base::sampling::{hash, tangent_frame};
 use crate::form_factor::{FormFactorError, FormFactors, MAX_BACK_SHARE, Row, Viewpoint, map_rows};
 use crate::patch::PatchMesh;
 
 /// Sites gathered before the cache is asked again.
 const ROUND: usize = 512;
+
+/// Stiffness of the plane through records, as a share of how far they scatter.
+const STIFFNESS: f32 = 0.1;
 
 /// Where and how densely light is gathered.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,8 +38,18 @@ pub struct Gathered {
     pub is_valid: Vec<bool>,
     /// The light of the site is known; false where it was cancelled before.
     pub is_known: Vec<bool>,
-    /// Share of back faces seen, mean over all hemicubes.
-    pub mean_back_share: f32,
+}
+
+/// Gathers the reflected radiosity at one set of sites after the other; what one set finds serves the next.
+pub struct Gatherer<'a> {
+    radiosity: &'a Field,
+    centroids: Vec<Vec3>,
+    settings: GatherSettings,
+    cache: IrradianceCache,
+    /// Places and irradiance `[record][group]` of the sites that others borrow from.
+    places: Vec<Vec3>,
+    records: Vec<Vec3>,
+    back_share: f32,
     /// Hemicubes that stood at sites.
     pub num_hemicubes: usize,
 }
@@ -51,53 +64,135 @@ struct Sight {
     nearest: f32,
 }
 
-/// Gathers the reflected `radiosity` `[e][g]` at all `sites`.
-///
-/// Equation: E = sum over elements of F(site, e) B_e.
-///
-/// # Errors
-/// The form factors could not be found.
-pub fn gather(
-    mesh: &PatchMesh,
-    radiosity: &Field,
-    method: &mut dyn FormFactors,
-    sites: &[Viewpoint],
-    settings: &GatherSettings,
-    progress: &dyn Progress,
-) -> Result<Gathered, FormFactorError> {
-    let centroids: Vec<Vec3> = mesh.elements.iter().map(|element| mesh.centroid(element)).collect();
-    let go_on = || {
-        progress.rest();
-        !progress.is_cancelled()
-    };
-    let mut gathered = Gathered::nothing(sites.len(), radiosity.num_groups());
-    let mut cache = IrradianceCache::new(settings.tolerance, settings.max_radius);
-    let order = scattered_order(sites.len());
-    let mut next = 0;
-    while next < order.len() && !progress.is_cancelled() {
-        // Choose the next sites that no hemicube near them serves.
-        let mut chosen = Vec::with_capacity(ROUND);
-        while chosen.len() < ROUND && next < order.len() {
-            let site = order[next];
-            if !cache.serves(&sites[site as usize]) {
-                chosen.push(site);
-            }
-            next += 1;
+impl<'a> Gatherer<'a> {
+    /// Nothing is known yet of the light that `radiosity` `[e][g]` brings.
+    #[must_use]
+    pub fn new(mesh: &'a PatchMesh, radiosity: &'a Field, settings: GatherSettings) -> Self {
+        Self {
+            radiosity,
+            centroids: mesh.elements.iter().map(|element| mesh.centroid(element)).collect(),
+            settings,
+            cache: IrradianceCache::new(settings.tolerance, settings.max_radius),
+            places: Vec::new(),
+            records: Vec::new(),
+            back_share: 0.0,
+            num_hemicubes: 0,
         }
-        let viewpoints: Vec<Viewpoint> = chosen.iter().map(|&site| sites[site as usize]).collect();
-        let sights =
-            map_rows(method, &viewpoints, &go_on, |index, row| see(row, &viewpoints[index], radiosity, &centroids))?;
-        for ((&site, viewpoint), sight) in chosen.iter().zip(&viewpoints).zip(&sights) {
-            gathered.enter(site as usize, sight);
-            if sight.back <= MAX_BACK_SHARE && settings.tolerance > 0.0 {
-                cache.insert(viewpoint, sight.distance, sight.nearest, site);
-            }
-        }
-        progress.report(Stage::Gather, next as f32 / order.len() as f32);
     }
-    gathered.blend(sites, &cache);
-    gathered.mean_back_share /= gathered.num_hemicubes.max(1) as f32;
-    Ok(gathered)
+
+    /// Share of back faces seen, mean over all hemicubes.
+    #[must_use]
+    pub fn mean_back_share(&self) -> f32 {
+        self.back_share / self.num_hemicubes.max(1) as f32
+    }
+
+    /// Gathers at all `sites`.
+    ///
+    /// Equation: E = sum over elements of F(site, e) B_e.
+    ///
+    /// # Errors
+    /// The form factors could not be found.
+    pub fn at(
+        &mut self,
+        method: &mut dyn FormFactors,
+        sites: &[Viewpoint],
+        progress: &dyn Progress,
+    ) -> Result<Gathered, FormFactorError> {
+        let go_on = || {
+            progress.rest();
+            !progress.is_cancelled()
+        };
+        let mut gathered = Gathered::nothing(sites.len(), self.radiosity.num_groups());
+        let order = scattered_order(sites.len());
+        let mut next = 0;
+        while next < order.len() && !progress.is_cancelled() {
+            // Choose the next sites that no hemicube near them serves.
+            let mut chosen = Vec::with_capacity(ROUND);
+            while chosen.len() < ROUND && next < order.len() {
+                let site = order[next];
+                if !self.cache.serves(&sites[site as usize]) {
+                    chosen.push(site);
+                }
+                next += 1;
+            }
+            let viewpoints: Vec<Viewpoint> = chosen.iter().map(|&site| sites[site as usize]).collect();
+            let sights = map_rows(method, &viewpoints, &go_on, |index, row| {
+                see(row, &viewpoints[index], self.radiosity, &self.centroids)
+            })?;
+            for ((&site, viewpoint), sight) in chosen.iter().zip(&viewpoints).zip(&sights) {
+                gathered.enter(site as usize, sight);
+                self.remember(viewpoint, sight);
+            }
+            progress.report(Stage::Gather, next as f32 / order.len() as f32);
+        }
+        self.blend(sites, &mut gathered);
+        Ok(gathered)
+    }
+
+    fn remember(&mut self, viewpoint: &Viewpoint, sight: &Sight) {
+        self.back_share += sight.back;
+        self.num_hemicubes += 1;
+        if sight.back <= MAX_BACK_SHARE && self.settings.tolerance > 0.0 {
+            self.cache.insert(viewpoint, sight.distance, sight.nearest, self.places.len() as u32);
+            self.places.push(viewpoint.position);
+            self.records.extend(&sight.irradiance);
+        }
+    }
+
+    /// Gives every open site what a plane through the records near it, its own included, says of its place.
+    fn blend(&self, sites: &[Viewpoint], gathered: &mut Gathered) {
+        let num_groups = self.radiosity.num_groups();
+        let mut weights = Vec::new();
+        for (site, viewpoint) in sites.iter().enumerate() {
+            if !gathered.is_valid[site] {
+                continue;
+            }
+            self.cache.weights(viewpoint, &mut weights);
+            if weights.is_empty() {
+                continue;
+            }
+            self.fit_plane(viewpoint, &mut weights);
+            gathered.is_known[site] = true;
+            let sums = gathered.indirect.at_mut(site);
+            sums.fill(Vec3::ZERO);
+            for &(record, weight) in &weights {
+                let record = record as usize * num_groups;
+                sums.iter_mut().zip(&self.records[record..]).for_each(|(sum, &value)| *sum += value * weight);
+            }
+            sums.iter_mut().for_each(|sum| *sum = sum.max(Vec3::ZERO));
+        }
+    }
+
+    /// Turns the weights of a mean into those of the value at the viewpoint of the plane that fits the records best, so that
+    /// records to one side only do not pull it to theirs.
+    ///
+    /// Source: Lancaster, Salkauskas 1981, "Surfaces generated by moving least squares methods".
+    fn fit_plane(&self, viewpoint: &Viewpoint, weights: &mut [(u32, f32)]) {
+        let (x, y) = tangent_frame(viewpoint.normal);
+        let offset = |record: u32| {
+            let offset = self.places[record as usize] - viewpoint.position;
+            Vec2::new(offset.dot(x), offset.dot(y))
+        };
+        let (mut first, mut second) = (Vec2::ZERO, Mat2::ZERO);
+        for &(record, weight) in &*weights {
+            let offset = offset(record);
+            first += weight * offset;
+            second += weight * Mat2::from_cols(offset * offset.x, offset * offset.y);
+        }
+        // A little stiffness keeps few records, or records in a row, from saying too much.
+        let stiffness = STIFFNESS * (second.x_axis.x + second.y_axis.y);
+        let stiff = second + Mat2::from_diagonal(Vec2::splat(stiffness));
+        if stiff.determinant() <= f32::MIN_POSITIVE {
+            return;
+        }
+        let slope = stiff.inverse() * first;
+        let mut sum = 0.0;
+        for (record, weight) in &mut *weights {
+            *weight *= 1.0 - offset(*record).dot(slope);
+            sum += *weight;
+        }
+        weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
+    }
 }
 
 /// All sites in an order that covers the scene evenly from the start.
@@ -133,8 +228,6 @@ impl Gathered {
             indirect: Field::zero(num_sites, num_groups),
             is_valid: vec![true; num_sites],
             is_known: vec![false; num_sites],
-            mean_back_share: 0.0,
-            num_hemicubes: 0,
         }
     }
 
@@ -142,25 +235,5 @@ impl Gathered {
         self.indirect.at_mut(site).copy_from_slice(&sight.irradiance);
         self.is_known[site] = true;
         self.is_valid[site] = sight.back <= MAX_BACK_SHARE;
-        self.mean_back_share += sight.back;
-        self.num_hemicubes += 1;
-    }
-
-    /// Gives every site the weighted mean of the records near it, its own included.
-    fn blend(&mut self, sites: &[Viewpoint], cache: &IrradianceCache) {
-        let own = self.indirect.clone();
-        let mut weights = Vec::new();
-        for (site, viewpoint) in sites.iter().enumerate().filter(|(site, _)| self.is_valid[*site]) {
-            cache.weights(viewpoint, &mut weights);
-            if weights.is_empty() {
-                continue;
-            }
-            self.is_known[site] = true;
-            let sums = self.indirect.at_mut(site);
-            sums.fill(Vec3::ZERO);
-            for &(record, weight) in &weights {
-                sums.iter_mut().zip(own.at(record as usize)).for_each(|(sum, &value)| *sum += value * weight);
-            }
-        }
     }
 }

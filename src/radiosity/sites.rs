@@ -5,7 +5,7 @@ use glam::Vec3;
 use crate::base::ids::ElementId;
 use crate::base::sampling::{hash, r2, triangle_from_square};
 use crate::form_factor::Viewpoint;
-use crate::patch::{Element, Patch, PatchMesh};
+use crate::patch::{Element, LightVertex, Patch, PatchMesh};
 use crate::scene::{Scene, normal_of};
 
 /// Height of a viewpoint above its surface, as a share of the scene's extent: far above rounding, far below detail.
@@ -43,11 +43,17 @@ impl Sites {
         let site = |(l, (sum, count)): (usize, &(Vec3, f32))| {
             let vertex = &mesh.light_vertices[l];
             let middle = if *count > 0.0 { sum / *count } else { vertex.position };
-            // Only sideways: on a curved surface the middle lies below the tangent plane.
-            let sideways = (middle - vertex.position).reject_from(vertex.normal);
-            self.viewpoint(vertex.position + INSET * sideways, vertex.normal, l as u32)
+            self.beside(vertex, middle, l as u32)
         };
         sum_of_centroids.iter().enumerate().map(site).collect()
+    }
+
+    /// The viewpoint of a light vertex, a little towards the middle of the elements round it.
+    #[must_use]
+    pub fn beside(&self, vertex: &LightVertex, middle: Vec3, seed: u32) -> Viewpoint {
+        // Only sideways: on a curved surface the middle lies below the tangent plane.
+        let sideways = (middle - vertex.position).reject_from(vertex.normal);
+        self.viewpoint(vertex.position + INSET * sideways, vertex.normal, seed)
     }
 
     /// `num_points` viewpoints on each element, side by side, with its geometric normal.

@@ -1,0 +1,100 @@
+//! Light at vertices, and the mesh that follows it.
+
+use super::watch::Watch;
+use super::{BakeError, BakeSettings};
+use crate::base::colour::luminance;
+use crate::form_factor::{FormFactors, Viewpoint};
+use crate::patch::PatchMesh;
+use crate::radiosity::Field;
+use crate::radiosity::adaptive::{Cut, Lit, RefineSettings};
+use crate::radiosity::direct::DirectLight;
+use crate::radiosity::element_light::is_inside;
+use crate::radiosity::gather::{Gathered, Gatherer};
+use crate::trace::Tracer;
+
+/// Light that errors are measured beside even in the dark, as a share of the mean over the vertices.
+const FLOOR: f32 = 0.05;
+
+/// What refining asks for light.
+pub(super) struct Lighting<'a> {
+    pub lights: &'a DirectLight<'a>,
+    pub tracer: &'a Tracer<'a>,
+    pub settings: &'a BakeSettings,
+    pub refine: RefineSettings,
+    pub watch: &'a dyn Watch,
+}
+
+impl Lighting<'_> {
+    /// Refines a mesh until direct light is linear along its edges; returns it with the direct light `[l][g]`.
+    pub(super) fn refine_by_direct(
+        &self,
+        cut: &mut Cut<'_>,
+        mesh: PatchMesh,
+        places: &[Viewpoint],
+    ) -> Result<(PatchMesh, Field), BakeError> {
+        let lit = self.direct(places);
+        if !self.is_wanted() {
+            return Ok((mesh, lit.light));
+        }
+        let floor = FLOOR * mean_luminance(&lit.light);
+        let mut evaluate = |places: &[Viewpoint]| -> Result<Lit, BakeError> { Ok(self.direct(places)) };
+        let (mesh, lit) = cut.refine(mesh, lit, &self.refine, floor, &mut evaluate)?;
+        Ok((mesh, lit.light))
+    }
+
+    /// Refines a mesh with its `direct` and `gathered` light on until all of it is linear along its edges; both follow.
+    pub(super) fn refine_by_all(
+        &self,
+        cut: &mut Cut<'_>,
+        mesh: PatchMesh,
+        (direct, gathered): (Field, Gathered),
+        gatherer: &mut Gatherer<'_>,
+        method: &mut dyn FormFactors,
+    ) -> Result<(PatchMesh, Field, Gathered), BakeError> {
+        if !self.is_wanted() {
+            return Ok((mesh, direct, gathered));
+        }
+        let num_groups = direct.num_groups();
+        let is_known = |gathered: &Gathered, l: usize| gathered.is_valid[l] && gathered.is_known[l];
+        let join = |direct: &Field, gathered: &Gathered| {
+            let columns = |l: usize| direct.at(l).iter().chain(gathered.indirect.at(l)).copied();
+            let places = 0..gathered.is_valid.len();
+            let light = Field::from_values(2 * num_groups, places.clone().flat_map(columns).collect());
+            Lit { light, is_open: places.map(|l| is_known(gathered, l)).collect() }
+        };
+        let lit = join(&direct, &gathered);
+        let floor = FLOOR * mean_luminance(&lit.light);
+        let mut evaluate = |places: &[Viewpoint]| -> Result<Lit, BakeError> {
+            let direct = self.lights.irradiance(places, self.watch);
+            Ok(join(&direct, &gatherer.at(method, places, self.watch)?))
+        };
+        let (mesh, lit) = cut.refine(mesh, lit, &self.refine, floor, &mut evaluate)?;
+        let part = |first: usize| {
+            let columns = |l: usize| lit.light.at(l)[first..first + num_groups].iter().copied();
+            Field::from_values(num_groups, (0..lit.is_open.len()).flat_map(columns).collect())
+        };
+        let is_known = vec![!self.watch.is_cancelled(); lit.is_open.len()];
+        let (direct, indirect) = (part(0), part(num_groups));
+        Ok((mesh, direct, Gathered { indirect, is_valid: lit.is_open, is_known }))
+    }
+
+    fn is_wanted(&self) -> bool {
+        self.settings.refine_error > 0.0 && !self.watch.is_cancelled()
+    }
+
+    /// Direct light; where it is dark, whether the place lies inside something.
+    fn direct(&self, places: &[Viewpoint]) -> Lit {
+        let light = self.lights.irradiance(places, self.watch);
+        // Places that were not reached when cancelled are dark for no reason.
+        let is_cancelled = self.watch.is_cancelled();
+        let is_open =
+            |l: usize| !is_cancelled && (luminance(light.total(l)) > 0.0 || !is_inside(self.tracer, &places[l]));
+        let is_open = (0..places.len()).map(is_open).collect();
+        Lit { light, is_open }
+    }
+}
+
+fn mean_luminance(light: &Field) -> f32 {
+    let num_places = light.num_places();
+    (0..num_places).map(|l| luminance(light.total(l))).sum::<f32>() / num_places.max(1) as f32
+}
