@@ -92,6 +92,7 @@ impl Walkthrough {
             | Command::Pin
             | Command::ClearReadings
             | Command::WriteReadings
+            | Command::ForgetSight
             | Command::ToggleRecording
             | Command::SaveBake
             | Command::WritePicture

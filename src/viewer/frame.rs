@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use winit::event_loop::ControlFlow;
 
 use super::errand::Kind;
-use super::panels::{Command, Facts, MeterFacts};
+use super::panels::{Command, Facts, MeterFacts, Tab};
 use super::screen::{PanelShapes, Shown};
 use super::walkthrough::Walkthrough;
 use super::worker::Worker;
@@ -41,6 +41,7 @@ impl Walkthrough {
         for command in commands {
             self.perform(command);
         }
+        self.remember_changes();
     }
 
     /// Moves the eye; whether it goes on moving.
@@ -57,8 +58,11 @@ impl Walkthrough {
     fn lay_out(&mut self) -> (PanelShapes, Vec<Command>) {
         let place = self.session.place.as_ref();
         let next_settings = self.next_settings();
+        // The area of a large scene is not summed for a page that nobody sees.
+        let baked_place = place.filter(|_| self.panels.memory.tab == Tab::Solution);
         let curve = self.session.curve();
         let solved = place.and_then(|place| place.solved.as_deref());
+        let sees = |point| place.is_some_and(|place| place.sees(point));
         let facts = Facts {
             scene: place.map(|place| &*place.scene),
             light: self.session.light_state(),
@@ -71,7 +75,7 @@ impl Walkthrough {
             frame_rate: self.pacer.frame_rate(),
             frame_seconds: self.pacer.frame_seconds(),
             adapter: &self.adapter,
-            next_bake: place.map(|place| (next_settings, place.mesh_sizes(&next_settings))),
+            next_bake: baked_place.map(|place| (next_settings, place.mesh_sizes(&next_settings))),
             curve: &curve,
             report: solved.and_then(|solved| solved.report.as_ref()),
             advice: place.map_or(&[], |place| &place.advice),
@@ -88,6 +92,7 @@ impl Walkthrough {
             is_writing: self.errands.is_out(Kind::Write),
             num_rays: self.inquiry.num_rays,
             bookmarks: self.panels.memory.bookmarks_of(&self.session.name()),
+            sees: &sees,
         };
         let (mut commands, mut free) = (Vec::new(), egui::Rect::ZERO);
         let shapes = self.gui.run(&self.window, |ui| (commands, free) = self.panels.ui(ui, &facts));

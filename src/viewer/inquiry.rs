@@ -7,7 +7,7 @@ use super::collider::Pick;
 use super::errand::{Finding, Kind};
 use super::meter::{self, Grid, GridPlan, Reading};
 use super::output::{self, Written, next_name};
-use super::panels::{Command, Notice, Tool, Trouble};
+use super::panels::{Command, Notice, Tab, Tool, Trouble};
 use super::patch_sight::PatchSight;
 use super::replay::Recording;
 use super::still;
@@ -138,6 +138,7 @@ impl Walkthrough {
                 (self.inquiry.last, self.inquiry.grid) = (None, None);
                 self.inquiry.pins.clear();
             }
+            Command::ForgetSight => self.inquiry.sight = None,
             Command::WriteReadings => self.write_readings(),
             Command::ToggleRecording => self.toggle_recording(),
             Command::SaveBake => self.save_bake(),
@@ -150,12 +151,13 @@ impl Walkthrough {
     fn take(&mut self, tool: Tool) {
         self.look.release(&self.window);
         self.panels.tool = tool;
-        let section = match tool {
-            Tool::Meter | Tool::Grid => "Lux meter",
-            Tool::Sight => "View from here",
-            Tool::Choose => "Scene",
+        let (tab, section) = match tool {
+            Tool::Meter | Tool::Grid => (Tab::Meter, "Lux meter"),
+            Tool::Sight => (Tab::Meter, "View from here"),
+            Tool::Choose => (Tab::Place, "Scene"),
             Tool::Look => return,
         };
+        self.panels.memory.tab = tab;
         self.panels.memory.sections.insert(section.to_owned(), true);
     }
 

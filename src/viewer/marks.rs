@@ -36,6 +36,8 @@ const SHOOTER: [u8; 4] = [255, 80, 60, 170];
 const SHOOTER_EDGE: [u8; 4] = [255, 235, 120, 255];
 /// Opacity of the heat map.
 const HEAT_ALPHA: u8 = 225;
+/// What is not seen at all.
+const UNSEEN: [u8; 4] = [24, 24, 28, 170];
 /// Powers of ten that the heat map spans.
 const HEAT_DECADES: f32 = 3.0;
 
@@ -66,8 +68,9 @@ impl Marks {
     pub fn heat(&mut self, scene: &Scene, heat: &[f32]) {
         for (e, &heat) in heat.iter().enumerate().take(scene.triangles.len()) {
             let place = 1.0 + heat.max(1e-9).log10() / HEAT_DECADES;
-            let [r, g, b] = if heat > 0.0 { turbo(place) } else { [24, 24, 28] };
-            self.face(scene, TriangleId::new(e), [r, g, b, HEAT_ALPHA]);
+            let [r, g, b] = turbo(place);
+            let colour = if heat > 0.0 { [r, g, b, HEAT_ALPHA] } else { UNSEEN };
+            self.face(scene, TriangleId::new(e), colour);
         }
     }
 

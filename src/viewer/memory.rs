@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::camera::Eye;
 use super::marks::Wire;
 use super::output::PictureSettings;
+use super::panels::Tab;
 use crate::base::output::write_whole;
 use crate::render::LuxScale;
 
@@ -29,6 +30,8 @@ pub struct Memory {
     pub has_seen_tour: bool,
     /// The side panel is shown.
     pub is_open: bool,
+    /// The page that it shows.
+    pub tab: Tab,
     /// Sections of the side panel that are unfolded or not, by title.
     pub sections: BTreeMap<String, bool>,
     /// Scale of false colours.
@@ -61,6 +64,7 @@ impl Default for Memory {
             recent: Vec::new(),
             has_seen_tour: false,
             is_open: true,
+            tab: Tab::Picture,
             sections: BTreeMap::new(),
             lux_scale: LuxScale::default(),
             wire: Wire::None,

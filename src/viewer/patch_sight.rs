@@ -17,7 +17,7 @@ use crate::trace::Tracer;
 /// Width of the hemicube, pixels.
 const SIZE_PX: u32 = 128;
 /// Rays that find the form factors.
-const NUM_RAYS: u32 = 16_384;
+const NUM_RAYS: u32 = 1 << 17;
 
 /// What a patch sees.
 pub struct PatchSight {

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use super::canvas::{Change, Detail, Sight};
 use super::errand::Kind;
 use super::marks_cache::Wanted;
+use super::panels::Tab;
 use super::still::{self, Subject};
 use super::walkthrough::Walkthrough;
 use crate::render::View;
@@ -57,7 +58,7 @@ impl Walkthrough {
         let wanted = Wanted {
             wire: panels.memory.wire,
             chosen: panels.selection.chosen,
-            sight: inquiry.sight.as_ref().filter(|_| panels.shows_heat),
+            sight: inquiry.sight.as_ref().filter(|_| panels.shows_heat && panels.memory.tab == Tab::Meter),
             shooter: moment.and_then(|moment| moment.shooter),
         };
         Some(Sight {
@@ -73,8 +74,15 @@ impl Walkthrough {
 
     /// Nothing has changed: begins to trace when that has lasted long enough, and where rays show the same light.
     fn keep_still(&mut self, sight: &Sight) {
+        let is_new = self.panels.memory.traces_stills && !self.traced_stills;
+        self.traced_stills = self.panels.memory.traces_stills;
+        if is_new {
+            self.still_due = Some(Instant::now());
+        }
         if !self.panels.memory.traces_stills {
             self.still_due = None;
+            self.errands.end(Kind::Still);
+            self.inquiry.num_rays = None;
             if self.screen.canvas.detail() == Some(Detail::Traced) {
                 // The next frame draws the picture anew.
                 self.screen.canvas.forget();

@@ -73,8 +73,17 @@ impl Place {
     /// What bake settings mean on this scene.
     #[must_use]
     pub fn mesh_sizes(&self, settings: &BakeSettings) -> MeshSettings {
-        // The area is summed once a frame at most: a million triangles take a millisecond.
         settings.mesh_settings(&self.scene)
+    }
+
+    /// Nothing stands between the eye and a point.
+    #[must_use]
+    pub fn sees(&self, point: Vec3) -> bool {
+        let eye = self.traveller.eye.position;
+        let way = point - eye;
+        let stops = |t| self.scene.material_of(t).double_sided;
+        let met = self.collider.pick(eye, way, stops);
+        met.is_none_or(|pick| (pick.point - eye).length() > 0.995 * way.length())
     }
 
     /// New light is on the device, and another mesh with it where there is one.

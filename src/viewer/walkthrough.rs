@@ -2,7 +2,7 @@
 //! `frame`.
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use winit::event::{DeviceEvent, ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::EventLoopProxy;
@@ -26,6 +26,9 @@ use crate::bake::BakeSettings;
 
 /// Pixels of a touchpad's scroll that count as one notch of a wheel.
 const PIXELS_A_NOTCH: f64 = 40.0;
+
+/// What the user has set is written down at most this often.
+const REMEMBER_INTERVAL: Duration = Duration::from_secs(2);
 
 /// The open window and everything that lives as long.
 pub struct Walkthrough {
@@ -51,6 +54,10 @@ pub struct Walkthrough {
     pub(super) marks: MarksCache,
     /// When a still camera begins to trace.
     pub(super) still_due: Option<Instant>,
+    /// What was written down last, and when.
+    remembered: (Memory, Instant),
+    /// A still camera was to trace in the last frame.
+    pub(super) traced_stills: bool,
     /// What the eye circles round while a button is held.
     orbit: Option<glam::Vec3>,
 }
@@ -73,6 +80,7 @@ impl Walkthrough {
         Ok(Self {
             adapter: screen.gpu.name(),
             picture_size: screen.size(),
+            remembered: (memory.clone(), Instant::now()),
             panels: Panels::new(options.settings.quality, memory),
             settings: options.settings,
             keys: Keys::default(),
@@ -87,6 +95,7 @@ impl Walkthrough {
             inquiry: Inquiry::default(),
             marks: MarksCache::default(),
             still_due: None,
+            traced_stills: false,
             orbit: None,
         })
     }
@@ -132,10 +141,18 @@ impl Walkthrough {
         self.remember();
     }
 
-    fn remember(&self) {
+    /// Writes down what has changed, now and then.
+    pub(super) fn remember_changes(&mut self) {
+        if self.remembered.1.elapsed() > REMEMBER_INTERVAL && self.remembered.0 != self.panels.memory {
+            self.remember();
+        }
+    }
+
+    fn remember(&mut self) {
         if let Some(path) = Memory::place() {
             self.panels.memory.write(&path);
         }
+        self.remembered = (self.panels.memory.clone(), Instant::now());
     }
 
     /// An event of the window; true where the window shall close.

@@ -3,8 +3,12 @@
 use egui::Ui;
 
 use super::theme;
+use super::widgets::hint;
 
 pub fn advice_ui(ui: &mut Ui, advice: &[String]) {
+    if advice.is_empty() {
+        hint(ui, "Nothing to complain about.");
+    }
     for line in advice {
         // What was found stands before the first semicolon, what to do after it.
         let (found, remedy) = line.split_once("; ").unwrap_or((line, ""));

@@ -49,6 +49,8 @@ pub enum Command {
     Pin,
     /// Drop all readings and the grid.
     ClearReadings,
+    /// Drop the view from a patch.
+    ForgetSight,
     /// Write readings and grid as a table.
     WriteReadings,
     /// Record the bake for the time machine, or stop recording.

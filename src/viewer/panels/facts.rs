@@ -64,6 +64,8 @@ pub struct Facts<'a> {
     pub num_rays: Option<u32>,
     /// Numbers of the views that are marked.
     pub bookmarks: Vec<u8>,
+    /// Nothing stands before a point.
+    pub sees: &'a dyn Fn(Vec3) -> bool,
 }
 
 /// What the meter has to show.

@@ -33,6 +33,17 @@ const SHEET: [Subject; 5] = [
         ],
     ),
     (
+        "Asking",
+        &[
+            ("M", "lux meter: a click measures a point"),
+            ("G", "grid: a click measures a flat surface"),
+            ("N", "a click shows what that patch sees"),
+            ("L", "a click selects an object"),
+            ("Enter", "keep the reading"),
+            ("Esc", "back to looking around"),
+        ],
+    ),
+    (
         "Light",
         &[
             ("- +", "darker, brighter by a third of a stop"),
@@ -42,17 +53,6 @@ const SHEET: [Subject; 5] = [
             ("J K", "direct, indirect light"),
             ("R", "trace rays while the camera is still"),
             ("B", "bake, or end the bake"),
-        ],
-    ),
-    (
-        "Asking",
-        &[
-            ("M", "lux meter: a click measures a point"),
-            ("G", "grid: a click measures a flat surface"),
-            ("N", "a click shows what that patch sees"),
-            ("L", "a click selects an object"),
-            ("Enter", "keep the reading"),
-            ("Esc", "back to looking around"),
         ],
     ),
     (
@@ -73,7 +73,7 @@ pub fn help_ui(ctx: &egui::Context, is_open: &mut bool) {
     let window = egui::Window::new("All keys").id(Id::unique("keys")).collapsible(false).resizable(false).open(is_open);
     window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
         ui.horizontal_top(|ui| {
-            for (column, subjects) in [&SHEET[..2], &SHEET[2..]].into_iter().enumerate() {
+            for (column, subjects) in [&SHEET[..3], &SHEET[3..]].into_iter().enumerate() {
                 ui.vertical(|ui| column_ui(ui, column, subjects));
                 ui.add_space(14.0);
             }

@@ -16,7 +16,7 @@ pub fn markers_ui(ui: &mut Ui, free: Rect, facts: &Facts<'_>) {
     let painter = ui.painter_at(free);
     let place = |point: Vec3| {
         let [x, y] = eye.place_of(point, aspect)?;
-        (x.abs() <= 1.0 && y.abs() <= 1.0)
+        (x.abs() <= 1.0 && y.abs() <= 1.0 && (facts.sees)(point))
             .then(|| free.center() + vec2(0.5 * x * free.width(), -0.5 * y * free.height()))
     };
     if let Some(grid) = facts.meter.grid {

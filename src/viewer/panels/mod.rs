@@ -46,7 +46,29 @@ use crate::base::ids::InstanceId;
 use crate::render::Shading;
 
 /// Width of the side panel, points.
-const WIDTH: f32 = 300.0;
+const WIDTH: f32 = 312.0;
+
+/// Pages of the side panel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+pub enum Tab {
+    /// What is shown, and how.
+    #[default]
+    Picture,
+    /// The bake.
+    Solution,
+    /// Measuring, and what patches see.
+    Meter,
+    /// Cameras, objects, files.
+    Place,
+}
+
+/// Pages with their names and meanings.
+const TABS: [(Tab, &str, &str); 4] = [
+    (Tab::Picture, "Picture", "View, light and shadows"),
+    (Tab::Solution, "Solution", "Bake, time machine, advice"),
+    (Tab::Meter, "Meter", "Lux, grids, what a patch sees"),
+    (Tab::Place, "Place", "Cameras, objects, output, files"),
+];
 
 /// What the user has set, and what lies open.
 pub struct Panels {
@@ -162,73 +184,83 @@ impl Panels {
     }
 
     fn side_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
-        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            self.heading_ui(ui, facts, commands);
-            self.light_sections_ui(ui, facts, commands);
-            self.tool_sections_ui(ui, facts, commands);
-            self.scene_sections_ui(ui, facts, commands);
+        self.heading_ui(ui, facts, commands);
+        ui.separator();
+        egui::ScrollArea::vertical().id_salt(self.memory.tab).auto_shrink(false).show(ui, |ui| match self.memory.tab {
+            Tab::Picture => self.picture_tab_ui(ui, facts, commands),
+            Tab::Solution => self.solution_tab_ui(ui, facts, commands),
+            Tab::Meter => self.meter_tab_ui(ui, facts, commands),
+            Tab::Place => self.place_tab_ui(ui, facts, commands),
         });
     }
 
-    fn heading_ui(&self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
-        let name = facts.scene.map_or("Hemicube", |scene| scene.name.as_str());
-        ui.add(egui::Label::new(RichText::new(name).heading()).truncate());
+    fn heading_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
         ui.horizontal(|ui| {
-            if ui.button("Open ...").on_hover_text("Choose a file (O)").clicked() {
-                commands.push(Command::ChooseFile);
-            }
-            if ui.button("Help").on_hover_text("All keys (H or F1)").clicked() {
-                commands.push(Command::ToggleHelp);
-            }
-            ui.label(RichText::new("P hides this").weak());
+            let name = facts.scene.map_or("Hemicube", |scene| scene.name.as_str());
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                if ui.button("Help").on_hover_text("All keys (H or F1); P hides this panel").clicked() {
+                    commands.push(Command::ToggleHelp);
+                }
+                if ui.button("Open ...").on_hover_text("Choose a file (O)").clicked() {
+                    commands.push(Command::ChooseFile);
+                }
+                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                    ui.add(egui::Label::new(RichText::new(name).heading()).truncate());
+                });
+            });
         });
         ui.add_space(2.0);
         ui.horizontal_wrapped(|ui| {
-            ui.spacing_mut().item_spacing.x = 4.0;
-            ui.label(RichText::new("Click").weak());
+            ui.spacing_mut().item_spacing.x = 2.0;
+            ui.spacing_mut().button_padding.x = 6.0;
             for (tool, label, hint) in TOOLS {
                 if ui.selectable_label(self.tool == tool, label).on_hover_text(hint).clicked() {
                     commands.push(Command::Take(tool));
                 }
             }
         });
+        ui.add_space(2.0);
+        ui.columns(TABS.len(), |columns| {
+            for (column, (tab, label, hint)) in columns.iter_mut().zip(TABS) {
+                column.vertical_centered_justified(|ui| {
+                    ui.selectable_value(&mut self.memory.tab, tab, label).on_hover_text(hint);
+                });
+            }
+        });
     }
 
-    fn light_sections_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
-        let sections = &mut self.memory.sections;
-        if !facts.advice.is_empty() {
-            section(ui, sections, "Advice", false, |ui| advice::advice_ui(ui, facts.advice));
-        }
+    fn picture_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
         let Self { light, memory: Memory { sections, wire, traces_stills, .. }, .. } = self;
         section(ui, sections, "View", true, |ui| {
             view::view_ui(ui, light, wire, traces_stills, facts, commands);
         });
         section(ui, sections, "Light", true, |ui| light::light_ui(ui, light, commands));
         section(ui, sections, "Shadows", false, |ui| shadows::shadows_ui(ui, light));
-        section(ui, sections, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, facts, commands));
     }
 
-    fn tool_sections_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+    fn solution_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
         let sections = &mut self.memory.sections;
-        section(ui, sections, "Lux meter", false, |ui| {
+        section(ui, sections, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, facts, commands));
+        section(ui, sections, "Time machine", true, |ui| replay::replay_ui(ui, &mut self.replay, facts, commands));
+        section(ui, sections, "Advice", true, |ui| advice::advice_ui(ui, facts.advice));
+    }
+
+    fn meter_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+        let sections = &mut self.memory.sections;
+        section(ui, sections, "Lux meter", true, |ui| {
             measure::measure_ui(ui, &mut self.grid, &self.light.groups, self.tool, facts, commands);
         });
-        section(ui, sections, "View from here", false, |ui| {
+        section(ui, sections, "View from here", true, |ui| {
             sight::sight_ui(ui, &mut self.sight, &mut self.shows_heat, self.tool, facts, commands);
-        });
-        section(ui, sections, "Time machine", false, |ui| {
-            replay::replay_ui(ui, &mut self.replay, facts, commands);
         });
     }
 
-    fn scene_sections_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
-        let sections = &mut self.memory.sections;
+    fn place_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+        let Self { selection, memory: Memory { sections, picture, recent, .. }, .. } = self;
         section(ui, sections, "Cameras", true, |ui| views::views_ui(ui, facts, commands));
-        section(ui, sections, "Scene", false, |ui| scene::scene_ui(ui, &mut self.selection, facts, commands));
-        section(ui, sections, "Output", false, |ui| {
-            output::output_ui(ui, &mut self.memory.picture, facts, commands);
-        });
-        section(ui, sections, "Files", false, |ui| open::recent_ui(ui, &self.memory.recent, commands));
+        section(ui, sections, "Scene", true, |ui| scene::scene_ui(ui, selection, facts, commands));
+        section(ui, sections, "Output", false, |ui| output::output_ui(ui, picture, facts, commands));
+        section(ui, sections, "Files", false, |ui| open::recent_ui(ui, recent, commands));
         section(ui, sections, "Statistics", false, |ui| statistics::statistics_ui(ui, facts));
     }
 }

@@ -31,7 +31,7 @@ fn objects_ui(ui: &mut Ui, scene: &Scene, selection: &mut Selection, commands: &
     let title = format!("Objects: {}", grouped(listed.len()));
     CollapsingHeader::new(title).id_salt("objects").default_open(true).show_unindented(ui, |ui| {
         let height = ui.text_style_height(&egui::TextStyle::Body) + 2.0 * ui.spacing().button_padding.y;
-        let list = ScrollArea::vertical().id_salt("objects").max_height(LIST_HEIGHT);
+        let list = ScrollArea::vertical().id_salt("objects").max_height(LIST_HEIGHT).auto_shrink([false, true]);
         list.show_rows(ui, height, listed.len(), |ui, rows| {
             for &i in &listed[rows] {
                 object_ui(ui, &scene.instances[i].name, InstanceId::new(i), selection, commands);
@@ -70,7 +70,7 @@ fn object_ui(ui: &mut Ui, name: &str, id: InstanceId, selection: &mut Selection,
 fn materials_ui(ui: &mut Ui, scene: &Scene, filter: &str) {
     let listed: Vec<_> = scene.materials.iter().filter(|material| matches(&material.name, filter)).collect();
     CollapsingHeader::new(format!("Materials: {}", listed.len())).id_salt("materials").show_unindented(ui, |ui| {
-        ScrollArea::vertical().id_salt("materials").max_height(LIST_HEIGHT).show(ui, |ui| {
+        ScrollArea::vertical().id_salt("materials").max_height(LIST_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
             for material in listed {
                 let nit = material.emission.max_element();
                 let glow = if nit > 0.0 { format!("glows, {nit:.0} nit") } else { String::new() };
@@ -83,7 +83,7 @@ fn materials_ui(ui: &mut Ui, scene: &Scene, filter: &str) {
 fn lights_ui(ui: &mut Ui, scene: &Scene, filter: &str) {
     let listed: Vec<_> = scene.lights.iter().filter(|light| matches(&light.name, filter)).collect();
     CollapsingHeader::new(format!("Lights: {}", listed.len())).id_salt("lights").show_unindented(ui, |ui| {
-        ScrollArea::vertical().id_salt("lights").max_height(LIST_HEIGHT).show(ui, |ui| {
+        ScrollArea::vertical().id_salt("lights").max_height(LIST_HEIGHT).auto_shrink([false, true]).show(ui, |ui| {
             for light in listed {
                 let strength = light.intensity.max_element();
                 let kind = match light.kind {

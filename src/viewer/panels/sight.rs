@@ -40,8 +40,15 @@ pub fn sight_ui(
     ui.add(egui::Image::new((texture.id(), egui::vec2(width, width))).alt_text("Unfolded hemicube"));
     row(ui, "Open or backs", format!("{:.1} %", 100.0 * sight.open_share));
     row(ui, "Elements seen", sight.factors.iter().filter(|factor| **factor > 0.0).count().to_string());
+    ui.horizontal(|ui| buttons_ui(ui, sight, commands));
+}
+
+fn buttons_ui(ui: &mut Ui, sight: &PatchSight, commands: &mut Vec<Command>) {
     if ui.button("Copy as an option").on_hover_text("For hemicube render: the same picture in a file").clicked() {
         ui.copy_text(flag(&sight.point));
+    }
+    if ui.button("Forget it").on_hover_text("Takes the view and its heat map away").clicked() {
+        commands.push(Command::ForgetSight);
     }
 }
 

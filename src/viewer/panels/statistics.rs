@@ -8,7 +8,7 @@ use super::widgets::{grouped, row};
 pub fn statistics_ui(ui: &mut Ui, facts: &Facts<'_>) {
     row(ui, "Frame", format!("{:.1} ms", 1e3 * facts.frame_seconds));
     row(ui, "Frames a second", format!("{:.0}", facts.frame_rate));
-    row(ui, "Picture", format!("{} x {}", facts.picture_size[0], facts.picture_size[1]));
+    row(ui, "Picture size", format!("{} x {}", facts.picture_size[0], facts.picture_size[1]));
     row(ui, "Device", facts.adapter);
     if let Some(scene) = facts.scene {
         row(ui, "Triangles of the file", grouped(scene.triangles.len()));

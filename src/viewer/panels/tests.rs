@@ -51,6 +51,7 @@ fn facts(scene: Option<&'static Scene>, light: LightState) -> Facts<'static> {
         is_writing: false,
         num_rays: None,
         bookmarks: Vec::new(),
+        sees: &|_| true,
     }
 }
 
@@ -119,25 +120,27 @@ fn baked() -> Facts<'static> {
 fn buttons_ask_for_what_they_say() {
     let mut desk = desk(baked());
     let first = cornell().cameras[0].name.as_str();
-    for (name, command) in [
-        ("Open ...", Command::ChooseFile),
-        ("Help", Command::ToggleHelp),
-        ("Measure", Command::Take(Tool::Meter)),
-        ("Select", Command::Take(Tool::Choose)),
-        ("View from", Command::Take(Tool::Sight)),
-        ("Measure a surface", Command::Take(Tool::Grid)),
-        ("Frame all", Command::FrameAll),
-        ("Fly", Command::ToggleWalking),
-        ("auto", Command::ToggleAutoExposure),
-        ("Bake", Command::Bake),
-        ("Save the bake", Command::SaveBake),
-        ("Record the bake", Command::ToggleRecording),
-        (first, Command::Jump(0)),
-        ("Add", Command::Bookmark(1)),
-        ("Picture of this view", Command::Screenshot),
-        ("Write a large picture", Command::WritePicture),
-        ("Read the file again", Command::Reload),
+    for (tab, name, command) in [
+        ("Picture", "Open ...", Command::ChooseFile),
+        ("Picture", "Help", Command::ToggleHelp),
+        ("Picture", "Measure", Command::Take(Tool::Meter)),
+        ("Place", "Select", Command::Take(Tool::Choose)),
+        ("Meter", "View from", Command::Take(Tool::Sight)),
+        ("Meter", "Measure a surface", Command::Take(Tool::Grid)),
+        ("Picture", "Frame all", Command::FrameAll),
+        ("Picture", "Fly", Command::ToggleWalking),
+        ("Picture", "auto", Command::ToggleAutoExposure),
+        ("Solution", "Bake", Command::Bake),
+        ("Solution", "Save the bake", Command::SaveBake),
+        ("Solution", "Record the bake", Command::ToggleRecording),
+        ("Place", first, Command::Jump(0)),
+        ("Place", "Add", Command::Bookmark(1)),
+        ("Place", "Picture of this view", Command::Screenshot),
+        ("Place", "Write a large picture", Command::WritePicture),
+        ("Place", "Read the file again", Command::Reload),
     ] {
+        desk.get_by_label(tab).click();
+        desk.run_steps(3);
         // Some names are those of sections too.
         let nodes: Vec<_> = desk.get_all_by_label(name).collect();
         nodes.last().expect("found").click();
@@ -149,8 +152,10 @@ fn buttons_ask_for_what_they_say() {
 #[test]
 fn controls_set_what_they_name() {
     let mut desk = desk(baked());
+    click(&mut desk, "Solution");
     click(&mut desk, "High");
     assert_eq!(desk.state().panels.quality, Quality::High);
+    click(&mut desk, "Picture");
     // The lamp itself has the same name in the list of objects.
     desk.get_all_by_label(&cornell().light_groups[0]).next().expect("a dial").click();
     desk.run_steps(3);
@@ -163,6 +168,7 @@ fn controls_set_what_they_name() {
     assert!(desk.state().panels.light.look(true).shadows.is_some());
     click(&mut desk, "indirect");
     assert!(!desk.state().panels.light.indirect && desk.state().panels.light.direct);
+    click(&mut desk, "Place");
     click(&mut desk, "EXR");
     assert!(desk.state().panels.memory.picture.is_exr);
 }
@@ -173,22 +179,24 @@ fn every_slider_and_number_has_a_name() {
     desk.state_mut().panels.light.shading = Shading::FalseColour;
     desk.run_steps(3);
     let lamp = &cornell().light_groups[0];
-    for name in [
-        "Exposure",
-        &format!("Intensity of {lamp}"),
-        &format!("Colour of {lamp}"),
-        "Lowest lux",
-        "Highest lux",
-        "Parts between iso-lux lines",
-        "Field of view",
-        "Grid spacing",
-        "Grid height",
-        "Rays a pixel",
-        "Find a name",
+    for (tab, name) in [
+        ("Picture", "Exposure"),
+        ("Picture", &format!("Intensity of {lamp}")),
+        ("Picture", &format!("Colour of {lamp}")),
+        ("Picture", "Lowest lux"),
+        ("Picture", "Highest lux"),
+        ("Picture", "Parts between iso-lux lines"),
+        ("Picture", "Field of view"),
+        ("Meter", "Grid spacing"),
+        ("Meter", "Grid height"),
+        ("Place", "Rays a pixel"),
+        ("Place", "Find a name"),
     ] {
+        click(&mut desk, tab);
         assert!(desk.query_all_by_label(name).next().is_some(), "{name}");
     }
     // egui_kittest itself fails where a control has none.
+    click(&mut desk, "Picture");
     assert_eq!(click(&mut desk, "Fit"), [Command::FitLuxScale]);
 }
 
@@ -205,6 +213,7 @@ fn a_dimmed_light_goes_back_to_as_baked() {
 #[test]
 fn objects_are_found_selected_hidden_and_shown_again() {
     let mut desk = desk(baked());
+    click(&mut desk, "Place");
     desk.state_mut().panels.selection.filter = "tall".to_owned();
     desk.run_steps(3);
     let found = |desk: &Harness<'static, Desk>, name: &str| desk.query_all_by_label(name).next().is_some();
@@ -223,13 +232,16 @@ fn a_bake_can_be_cancelled_while_it_runs() {
     let working =
         LightState::Working { stage: Stage::Solve, done: 0.4, elapsed: Duration::from_secs(3), is_cancelled: false };
     let mut desk = desk(facts(Some(cornell()), working));
+    click(&mut desk, "Solution");
     assert_eq!(click(&mut desk, "Cancel"), [Command::CancelBake]);
 }
 
 #[test]
 fn what_needs_light_waits_for_it() {
-    let desk = desk(facts(Some(cornell()), LightState::Dark));
+    let mut desk = desk(facts(Some(cornell()), LightState::Dark));
+    click(&mut desk, "Meter");
     assert!(desk.query_by_label("Waits for the light: measuring needs a finished bake.").is_some());
+    click(&mut desk, "Solution");
     assert!(desk.query_by_label("Record the bake").is_none());
     assert!(desk.get_by_label("Save the bake").accesskit_node().is_disabled());
 }
@@ -249,7 +261,8 @@ fn trouble_is_shown_until_it_is_closed() {
 fn advice_stands_before_what_to_do() {
     static ADVICE: std::sync::OnceLock<Vec<String>> = std::sync::OnceLock::new();
     let advice = ADVICE.get_or_init(|| vec!["open edges: 3; close gaps between walls".to_owned()]);
-    let desk = desk(Facts { advice, ..baked() });
+    let mut desk = desk(Facts { advice, ..baked() });
+    click(&mut desk, "Solution");
     assert!(
         desk.query_by_label("open edges: 3").is_some() && desk.query_by_label("close gaps between walls").is_some()
     );
@@ -277,10 +290,11 @@ fn the_first_start_explains_itself_once() {
 #[test]
 fn sections_fold_and_are_remembered() {
     let mut desk = desk_with(baked(), Memory { has_seen_tour: true, ..Memory::default() }, WINDOW);
-    assert!(desk.query_by_label("Find a name").is_none());
-    click(&mut desk, "Scene");
+    click(&mut desk, "Place");
     assert!(desk.query_by_label("Find a name").is_some());
-    assert_eq!(desk.state().panels.memory.sections.get("Scene"), Some(&true));
+    click(&mut desk, "Scene");
+    assert!(desk.query_by_label("Find a name").is_none());
+    assert_eq!(desk.state().panels.memory.sections.get("Scene"), Some(&false));
 }
 
 #[test]

@@ -15,14 +15,13 @@ pub fn section(
     is_open_at_first: bool,
     contents: impl FnOnce(&mut Ui),
 ) {
-    ui.add_space(2.0);
-    ui.separator();
     let is_open = sections.get(title).copied().unwrap_or(is_open_at_first);
     let header = CollapsingHeader::new(theme::title(title)).open(Some(is_open)).show_unindented(ui, |ui| {
         ui.add_space(2.0);
         contents(ui);
-        ui.add_space(4.0);
     });
+    ui.add_space(2.0);
+    ui.separator();
     if header.header_response.clicked() {
         sections.insert(title.to_owned(), !is_open);
     }
