@@ -14,3 +14,4 @@ mod radiosity;
 mod raytrace;
 mod render_command;
 mod shadows;
+mod twins;
