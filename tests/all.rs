@@ -15,4 +15,5 @@ mod radiosity;
 mod raytrace;
 mod render_command;
 mod shadows;
+mod twins;
 mod viewer;
