@@ -2,7 +2,7 @@
 
 // The target's format encodes sRGB itself.
 override TARGET_ENCODES: bool = false;
-// Share of the distance by which marks stand before their own surface.
+// Share of the way to the eye by which marks stand before their own surface; metres where the eye is infinitely far.
 const LIFT: f32 = 1e-3;
 
 struct Varying {
@@ -25,10 +25,8 @@ fn unseen() -> @location(0) vec4f {
 
 @vertex
 fn mark(@location(0) position: vec3f, @location(1) colour: vec4f) -> Varying {
-    var at = frame.projection_from_world * vec4f(position, 1.0);
-    // Depth is reversed: larger is nearer.
-    at.z *= 1.0 + LIFT;
-    return Varying(at, colour);
+    let lifted = position + LIFT * (frame.eye.xyz - frame.eye.w * position);
+    return Varying(frame.projection_from_world * vec4f(lifted, 1.0), colour);
 }
 
 @fragment

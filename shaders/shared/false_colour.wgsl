@@ -21,7 +21,7 @@ fn false_colour(lux: f32) -> vec3f {
     let to_line = abs(fract(part - 0.5) - 0.5) / max(fwidth(part), 1e-6);
     let has_lines = frame.lux_scale.w > 0.0 && part > 0.5 && part < frame.lux_scale.w + 0.5;
     let line = select(0.0, saturate(LINE_WIDTH_PX - to_line), has_lines);
-    return mix(colour, vec3f(0.0), 0.85 * line);
+    return mix(colour, vec3f(0.0), line);
 }
 
 // Turbo as a polynomial, sRGB (Mikhailov 2019, "Turbo, An Improved Rainbow Colormap for Visualization").

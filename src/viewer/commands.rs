@@ -68,6 +68,7 @@ impl Walkthrough {
             Command::Screenshot => self.take_picture(),
             Command::ToggleBake if self.session.worker().is_some() => self.cancel(),
             Command::Bake | Command::ToggleBake => {
+                self.forget();
                 let outcome = self.session.bake(self.next_settings());
                 self.report(outcome);
             }

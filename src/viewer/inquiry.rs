@@ -129,6 +129,13 @@ impl Walkthrough {
         }
     }
 
+    /// What is known is of light that is no more: errands end, and nothing of what they have brought is shown.
+    pub(super) fn forget(&mut self) {
+        self.errands.end_all();
+        self.panels.replay = Default::default();
+        self.inquiry = Inquiry::default();
+    }
+
     /// Does what the panels ask of readings, recordings and files.
     pub(super) fn inquire(&mut self, command: Command) {
         match command {

@@ -91,6 +91,8 @@ impl Place {
         self.light_version += 1;
         if let Some(mesh) = mesh {
             (self.mesh, self.part, self.is_lit) = (mesh, None, true);
+            // What was solved before is of another mesh.
+            self.solved = None;
         }
     }
 

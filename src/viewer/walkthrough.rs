@@ -102,7 +102,8 @@ impl Walkthrough {
 
     /// The worker has something to tell.
     pub fn on_news(&mut self, news: News) {
-        if news.job == self.session.job() {
+        // The open file stays the same from bake to bake.
+        if news.job == self.session.job() || matches!(news.event, Event::FileChanged) {
             self.on_event(news.event);
         }
         self.pacer.want();
@@ -127,10 +128,8 @@ impl Walkthrough {
         self.window.set_title(&format!("{} - Hemicube", place.scene.name));
         self.panels.light.reset_groups(&place.scene);
         self.panels.selection = Default::default();
-        self.panels.replay = Default::default();
         self.panels.trouble = None;
-        self.errands.end_all();
-        self.inquiry = Inquiry::default();
+        self.forget();
         if let Some(advice) = place.advice.first().filter(|advice| *advice == super::default_sky::NOTE) {
             self.panels.notice = Some(Notice::new(advice.as_str()));
         }
