@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 use crate::bake::{Bake, BakeSettings, Method, Quality, Solver, bake};
 use crate::baked::{self, BakedScene};
 use crate::gpu::Gpu;
+use crate::scene::gltf::LoadOptions;
 use crate::scene::{Scene, builtin, gltf};
 
 use super::terminal::TerminalWatch;
@@ -44,6 +45,14 @@ pub struct BakeOptions {
     /// preset].
     #[arg(long, value_name = "X", value_parser = positive)]
     pub threshold: Option<f32>,
+}
+
+/// Which of a file's material variants is meant.
+#[derive(Args, Clone, Debug)]
+pub struct VariantOption {
+    /// Material variant of the file, by name (KHR_materials_variants; `hemicube info` lists them) [default: none].
+    #[arg(long, value_name = "NAME")]
+    pub variant: Option<String>,
 }
 
 /// Presets as written on the command line.
@@ -133,12 +142,12 @@ pub fn hemicube_size(text: &str) -> Result<u32, String> {
 /// Loads a scene: a file, or `builtin:gallery`, `builtin:cornell`.
 ///
 /// # Errors
-/// The file cannot be loaded, or there is no such built-in scene.
-pub fn load(path: &Path) -> Result<Scene> {
+/// The file cannot be loaded or has no such variant, or there is no such built-in scene.
+pub fn load(path: &Path, wanted: &VariantOption) -> Result<Scene> {
     match path.to_str().and_then(|text| text.strip_prefix(builtin::PREFIX)) {
         Some(name) => builtin::by_name(name)
             .with_context(|| format!("there is no built-in scene {name}; there are {}", builtin::NAMES.join(" and "))),
-        None => Ok(gltf::load(path)?),
+        None => Ok(gltf::load_with(path, &LoadOptions { variant: wanted.variant.clone() })?),
     }
 }
 
