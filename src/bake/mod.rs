@@ -100,7 +100,7 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         Lighting { lights: &lights, tracer: &tracer, settings, refine: settings.refine(scene, &sizes), watch };
     let places = sites.of_light_vertices(&mesh);
     let (mesh, mut direct) = lighting.refine_by_direct(&mut cut, mesh, &places)?;
-    watch.mesh(&dark_scene(scene, &mesh));
+    watch.mesh(&lit_mesh(scene, &mesh, &direct, &Field::zero(direct.num_places(), direct.num_groups())));
     let few_rays = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS);
     let on_elements = direct_on_elements(&mesh, &sites, &few_rays, &tracer, settings.points_an_element, watch);
     clock.lap(Stage::Direct);
@@ -136,10 +136,8 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     let mut indirect = completed(&gathered, || estimate(&mesh, &solution));
     let mesh = refined.unwrap_or(mesh);
     fill_hidden(&mesh, &gathered.is_valid, [&mut direct, &mut indirect]);
-    let mut baked = dark_scene(scene, &mesh);
+    let baked = lit_mesh(scene, &mesh, &direct, &indirect);
     watch.mesh(&baked);
-    baked.light = vertex_light(&mesh, &direct, &indirect);
-    watch.light(&baked.light);
     clock.lap(Stage::Gather);
 
     let report = Report {
@@ -168,6 +166,11 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         peak_memory_bytes: peak_memory(),
     };
     Ok(Bake { baked, report, mesh })
+}
+
+/// A mesh with light at its light vertices.
+fn lit_mesh(scene: &Scene, mesh: &PatchMesh, direct: &Field, indirect: &Field) -> BakedScene {
+    BakedScene { light: vertex_light(mesh, direct, indirect), ..dark_scene(scene, mesh) }
 }
 
 /// Indirect light at the vertices from an unfinished solution: averages plus the ambient estimate.

@@ -10,8 +10,8 @@ use crate::base::progress::{Progress, Stage, Unwatched};
 /// `mesh` comes first and again whenever it is refined, `light` as often as it is wanted, always for the last mesh; both are
 /// called on the thread that bakes.
 pub trait Watch: Progress {
-    /// The mesh that the light will be on, still dark.
-    fn mesh(&self, _dark: &BakedScene) {}
+    /// The mesh that light lies on from now on, with the light that is known.
+    fn mesh(&self, _mesh: &BakedScene) {}
     /// A new estimate of the light would be welcome now (the last one has been taken).
     fn wants_light(&self) -> bool {
         false

@@ -62,7 +62,10 @@ impl Recording {
     /// # Errors
     /// The form factors could not be found.
     pub fn of(solved: &Solved, progress: &dyn Progress) -> anyhow::Result<Option<Self>> {
-        let Some(solution) = &solved.solution else { return Ok(None) };
+        if solved.report.is_none() {
+            return Ok(None);
+        }
+        let direct = solved.direct_on_elements();
         let mesh = &solved.mesh;
         let tracer = Tracer::new(&solved.scene);
         let mut method = Hemispheres::new(&tracer, mesh, NUM_RAYS);
@@ -73,14 +76,15 @@ impl Recording {
             patches_a_batch: 1,
             row_bytes: ROW_BYTES,
         };
-        let mut solver = Progressive::new(mesh, Sites::new(&solved.scene), solution.direct.clone(), settings);
-        let max_moments = max_moments(mesh, solution.direct.num_groups());
+        let mut solver = Progressive::new(mesh, Sites::new(&solved.scene), direct, settings);
+        let max_moments = max_moments(mesh, solved.baked.light.groups.len());
         let mut moments = vec![Moment::of(mesh, solver.solution(), None, solver.unshot_share())];
         let mut next = 1;
         while !solver.is_done() && moments.len() < max_moments {
             progress.rest();
             let shooter = brightest(solver.solution());
-            if progress.is_cancelled() || !solver.step(&mut method, progress)? {
+            solver.step(&mut method, progress)?;
+            if progress.is_cancelled() {
                 return Ok(None);
             }
             if solver.solution().num_shots >= next || solver.is_done() {

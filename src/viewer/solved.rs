@@ -10,7 +10,7 @@ use crate::bake::{Bake, BakeSettings, Quality, Report};
 use crate::baked::BakedScene;
 use crate::base::progress::Progress;
 use crate::patch::{MeshError, MeshSettings, PatchMesh};
-use crate::radiosity::progressive::Solution;
+use crate::radiosity::Field;
 use crate::raytrace::MeasuringPoint;
 use crate::scene::Scene;
 
@@ -26,16 +26,14 @@ pub struct Solved {
     pub quality: Quality,
     /// The certificate; none where the file is a bake.
     pub report: Option<Report>,
-    /// The solution on the elements; none where the file is a bake.
-    pub solution: Option<Solution>,
 }
 
 impl Solved {
     /// What a bake of `scene` has brought.
     #[must_use]
     pub fn of_bake(scene: Arc<Scene>, bake: Bake, settings: &BakeSettings) -> Self {
-        let Bake { baked, report, solution, mesh } = bake;
-        Self { scene, mesh, baked, quality: settings.quality, report: Some(report), solution: Some(solution) }
+        let Bake { baked, report, mesh } = bake;
+        Self { scene, mesh, baked, quality: settings.quality, report: Some(report) }
     }
 
     /// A bake that was read from a file.
@@ -47,7 +45,7 @@ impl Solved {
         let uncut = MeshSettings { element_size: f32::INFINITY, patch_size: f32::INFINITY };
         let mesh = PatchMesh::new(&baked.scene, &uncut)?;
         let scene = Arc::new(baked.scene.clone());
-        Ok(Self { scene, mesh, baked, quality: Quality::default(), report: None, solution: None })
+        Ok(Self { scene, mesh, baked, quality: Quality::default(), report: None })
     }
 
     /// Measures as `hemicube measure` does; none where it was cancelled.
@@ -55,6 +53,17 @@ impl Solved {
     pub fn measure(&self, points: &[MeasuringPoint], progress: &dyn Progress) -> Option<Vec<Measured>> {
         let settings = MeasureSettings::preset(self.quality);
         measure(&self.scene, &self.mesh, &self.baked, points, &settings, progress)
+    }
+
+    /// Direct irradiance `[e][g]` on the elements, the mean of their corners.
+    #[must_use]
+    pub fn direct_on_elements(&self) -> Field {
+        let groups = &self.baked.light.groups;
+        let of_element = |triangle: &crate::scene::Triangle| {
+            let corners = triangle.vertices.map(|v| v as usize);
+            groups.iter().map(move |group| corners.map(|v| group.direct[v]).iter().sum::<Vec3>() / 3.0)
+        };
+        Field::from_values(groups.len(), self.baked.scene.triangles.iter().flat_map(of_element).collect())
     }
 
     /// The light as the dials have it: the stored light, the lamps and the lights of each group times its weight.

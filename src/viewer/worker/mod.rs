@@ -7,7 +7,7 @@ mod news;
 mod runner;
 mod source;
 
-use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
@@ -82,7 +82,7 @@ impl Worker {
     pub fn start(number: u32, job: Job, gpu: Arc<Gpu>, window: EventLoopProxy<News>) -> anyhow::Result<Self> {
         let shared = Shared::new(Some(Instant::now()));
         let runner =
-            Runner { number, gpu, window, shared: Arc::clone(&shared), mesh: OnceLock::new(), told: Mutex::new(None) };
+            Runner { number, gpu, window, shared: Arc::clone(&shared), mesh: Mutex::default(), told: Mutex::new(None) };
         let thread = std::thread::Builder::new().name("bake".to_owned()).spawn(move || runner.run(job));
         Ok(Self { shared, thread: Some(thread.context("cannot start the bake")?) })
     }

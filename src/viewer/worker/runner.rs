@@ -1,6 +1,6 @@
 //! The thread that loads and bakes.
 
-use std::sync::{Arc, Mutex, OnceLock};
+use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
 use winit::event_loop::EventLoopProxy;
@@ -27,7 +27,7 @@ pub struct Runner {
     pub gpu: Arc<Gpu>,
     pub window: EventLoopProxy<News>,
     pub shared: Arc<Shared>,
-    pub mesh: OnceLock<Arc<SceneBuffers>>,
+    pub mesh: Mutex<Option<Arc<SceneBuffers>>>,
     /// When the window last heard of progress.
     pub told: Mutex<Option<Instant>>,
 }
@@ -69,7 +69,7 @@ impl Runner {
         let gpu = Gpu::headless()?;
         let done = bake(Some(&gpu), scene, settings, self)?;
         log::info!("the bake has ended");
-        if let Some(mesh) = self.mesh.get() {
+        if let Some(mesh) = &*lock(&self.mesh) {
             mesh.set_light(&self.gpu, &done.baked.light);
         }
         self.tell(Event::Finished(Arc::new(Solved::of_bake(Arc::clone(scene), done, settings))));
@@ -120,8 +120,7 @@ impl Watch for Runner {
         let scene = Arc::new(dark.scene.clone());
         let shadows = Arc::new(ShadowScene::new(&self.gpu, Arc::clone(&scene)));
         self.tell(Event::Mesh(Mesh { scene, buffers: Arc::clone(&buffers), shadows }));
-        // The recipe hands out one mesh only; a second would find the first in place.
-        let _ = self.mesh.set(buffers);
+        *lock(&self.mesh) = Some(buffers);
     }
 
     fn wants_light(&self) -> bool {
@@ -129,7 +128,7 @@ impl Watch for Runner {
     }
 
     fn light(&self, estimate: &VertexLight) {
-        if let Some(mesh) = self.mesh.get() {
+        if let Some(mesh) = &*lock(&self.mesh) {
             *lock(&self.shared.light_wanted) = None;
             mesh.set_light(&self.gpu, estimate);
             self.tell(Event::Light);
