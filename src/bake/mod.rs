@@ -1,6 +1,7 @@
 //! Floor 5: the whole job as one recipe.
 
 mod certificate;
+mod forecast;
 pub mod measure;
 mod method;
 pub mod patch_view;
@@ -29,8 +30,9 @@ use crate::radiosity::sites::Sites;
 use crate::scene::Scene;
 use crate::trace::Tracer;
 
+pub use forecast::Forecast;
 pub use method::Method;
-pub use report::{Flux, Report};
+pub use report::{Flux, Memory, Report};
 pub use settings::{BakeSettings, Quality, Solver};
 pub use watch::{Seconds, Watch};
 
@@ -89,6 +91,8 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     watch.report(Stage::Mesh, 0.0);
     let sizes = settings.mesh_settings(scene);
     let (mut cut, mesh) = Cut::new(scene, sizes)?;
+    let predicted = Forecast::of_mesh(scene, &mesh, settings).bytes as u64;
+    log::info!("{} elements; about {} MiB of memory", mesh.elements.len(), predicted >> 20);
     watch.mesh(&dark_scene(scene, &mesh));
     clock.lap(Stage::Mesh);
 
@@ -163,7 +167,7 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         backface_share,
         hidden_vertices: gathered.is_valid.iter().filter(|valid| !**valid).count(),
         seconds: Seconds { form_factors: form_factor_seconds, ..clock.seconds },
-        peak_memory_bytes: peak_memory(),
+        memory_bytes: Memory { predicted, peak: peak_memory() },
     };
     Ok(Bake { baked, report, mesh })
 }

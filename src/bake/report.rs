@@ -57,8 +57,17 @@ pub struct Report {
     pub hidden_vertices: usize,
     /// By stage.
     pub seconds: Seconds,
-    /// Most memory that the program has held until the end of the bake; null where the system does not tell.
-    pub peak_memory_bytes: Option<u64>,
+    /// Memory.
+    pub memory_bytes: Memory,
+}
+
+/// Bytes.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Memory {
+    /// Foretold before the bake.
+    pub predicted: u64,
+    /// Most that the program has held until the end of the bake; null where the system does not tell.
+    pub peak: Option<u64>,
 }
 
 /// Luminous flux, lumen.

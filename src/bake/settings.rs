@@ -88,7 +88,7 @@ const BORROW_REACH: f32 = 4.0;
 const MAX_SHOTS_A_PATCH: usize = 64;
 
 /// Rows kept between shots.
-const ROW_BYTES: usize = 1 << 30;
+pub(super) const ROW_BYTES: usize = 1 << 30;
 
 /// Mean area of an element in squares of the element size (bisection ends between 1/8 and 1/4).
 const AREA_OF_ELEMENT: f64 = 0.18;

@@ -41,10 +41,6 @@ pub struct BakeOptions {
     /// progressive refinement ends after N shots a patch on average [default: 64].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub passes: Option<u32>,
-    /// Progressive refinement ends when this share of the first reflected light is unshot [default: 0.01, 0.001 or 0.0003 by
-    /// preset].
-    #[arg(long, value_name = "X", value_parser = positive)]
-    pub threshold: Option<f32>,
 }
 
 /// Which of a file's material variants is meant.
@@ -109,7 +105,6 @@ impl BakeOptions {
                 SolverName::Matrix => Solver::Matrix,
             },
             passes: self.passes.map(|passes| passes as usize),
-            threshold: self.threshold.unwrap_or(preset.threshold),
             ..preset
         }
     }

@@ -8,6 +8,7 @@ use anyhow::Result;
 use clap::Args;
 
 use super::bake_options::{VariantOption, load};
+use crate::bake::{BakeSettings, Forecast, Quality};
 use crate::base::colour::luminance;
 use crate::scene::{Camera, Light, LightKind, Projection, Scene, doctor};
 
@@ -58,8 +59,22 @@ fn write_report(out: &mut String, scene: &Scene) -> fmt::Result {
     section(out, "cameras", scene.cameras.iter().map(|camera| (camera.name.clone(), describe_camera(camera))))?;
     let stored = scene.irradiance.iter().map(|stored| (stored.name.clone(), format!("{} values", stored.values.len())));
     section(out, "stored light", stored)?;
+    section(out, "bake", forecasts(scene))?;
     list(out, "notes", &scene.notes)?;
     list(out, "mesh doctor", &doctor::examine(scene).lines())
+}
+
+/// What a bake would take, preset by preset.
+fn forecasts(scene: &Scene) -> impl Iterator<Item = (String, String)> {
+    [("draft", Quality::Draft), ("medium", Quality::Medium), ("high", Quality::High)].into_iter().filter_map(
+        |(name, quality)| {
+            let Forecast { elements, patches, vertices, bytes } =
+                Forecast::of(scene, &BakeSettings::preset(quality)).ok()?;
+            let mib = bytes >> 20;
+            let counts = format!("{elements} elements, {patches} patches, {vertices} vertices");
+            Some((name.to_owned(), format!("{counts}, more where light changes; about {mib} MiB")))
+        },
+    )
 }
 
 fn row(out: &mut String, label: &str, value: impl fmt::Display) -> fmt::Result {

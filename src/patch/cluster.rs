@@ -1,7 +1,8 @@
 //! Patches: clusters of neighbouring elements that face alike.
 //!
 //! Real scenes have many tiny triangles; shooting from each would cost a hemicube a triangle. Elements of one instance and
-//! material within one cell of a grid, with normals in one bin, that hang together over shared edges, shoot as one.
+//! material within one cell of a grid, with normals in one bin, that hang together over shared edges or lie close together,
+//! shoot as one.
 //!
 //! Source: Cohen, Greenberg, Immel, Brock 1986 (patches and elements); Willmott, Heckbert, Garland 1999 (face clusters).
 
@@ -16,17 +17,21 @@ use crate::scene::{Scene, normal_of};
 /// Normals are binned on the faces of a cube of this many cells a side: clusters span about 40 degrees.
 const NORMAL_CELLS: f32 = 1.5;
 
+/// Elements closer than this share of a patch need no common edge: many scenes are soups of small pieces.
+const CLOSE: f32 = 0.25;
+
 /// Groups the elements of `mesh` into patches about `patch_size` metres wide.
 pub(super) fn cluster(mesh: &mut PatchMesh, scene: &Scene, patch_size: f32) {
     let mut clusters = UnionFind::new(mesh.elements.len());
     let keys: Vec<Key> = mesh.elements.iter().map(|element| key_of(mesh, scene, element, patch_size)).collect();
     join_across_edges(mesh, &keys, &mut clusters);
+    join_close(mesh, &keys, patch_size * CLOSE, &mut clusters);
     number_patches(mesh, &mut clusters);
     list_members(mesh);
 }
 
 /// Elements with different keys never share a patch.
-#[derive(PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
 struct Key {
     cell: IVec3,
     normal_bin: IVec3,
@@ -77,6 +82,16 @@ fn join_across_edges(mesh: &PatchMesh, keys: &[Key], clusters: &mut UnionFind) {
                 }
             }
         }
+    }
+}
+
+/// Unites elements of equal key within one cell of a grid of `size` metres.
+fn join_close(mesh: &PatchMesh, keys: &[Key], size: f32, clusters: &mut UnionFind) {
+    let mut first_of: HashMap<(Key, IVec3), u32> = HashMap::new();
+    for (e, element) in mesh.elements.iter().enumerate() {
+        let cell = (mesh.centroid(element) / size).floor().as_ivec3();
+        let first = *first_of.entry((keys[e], cell)).or_insert(e as u32);
+        clusters.unite(first, e as u32);
     }
 }
 

@@ -27,6 +27,8 @@ pub(super) struct Geometry {
     pub cutouts: wgpu::Buffer,
     pub alphas: wgpu::Buffer,
     pub has_cutouts: bool,
+    /// Whether faces leave out what they cannot see.
+    pub is_culled: bool,
     chunks: Vec<Bounds>,
     num_triangles: u32,
 }
@@ -58,6 +60,7 @@ impl Geometry {
             cutouts: buffer("hemicube cut-outs", bytemuck::cast_slice(&cutouts.records)),
             alphas: buffer("hemicube alphas", &cutouts.alphas),
             has_cutouts,
+            is_culled: true,
             chunks,
             num_triangles: order.len() as u32,
         }
@@ -71,7 +74,7 @@ impl Geometry {
             return;
         }
         for (i, bounds) in self.chunks.iter().enumerate() {
-            if !frustum.meets(bounds) {
+            if self.is_culled && !frustum.meets(bounds) {
                 continue;
             }
             let first = (i * CHUNK) as u32;

@@ -58,6 +58,13 @@ impl<'a> Hemicubes<'a> {
         Self { gpu, geometry, pipeline, atlases, layout, deltas: delta_form_factors(n), near }
     }
 
+    /// Draws every triangle to every face: what culling is measured against.
+    #[must_use]
+    pub fn without_culling(mut self) -> Self {
+        self.geometry.is_culled = false;
+        self
+    }
+
     /// Draws and reads back hemicubes without summing them: what a loop could reach if the sums were free.
     ///
     /// # Errors

@@ -28,7 +28,7 @@ pub fn certificate_ui(ui: &mut Ui, report: &Report) {
         row(ui, "Direct light", format!("{:.1} s", seconds.direct));
         row(ui, "Shooting", format!("{:.1} s", seconds.solve));
         row(ui, "Gathering", format!("{:.1} s", seconds.gather));
-        if let Some(bytes) = report.peak_memory_bytes {
+        if let Some(bytes) = report.memory_bytes.peak {
             row(ui, "Most memory", format!("{} MiB", grouped((bytes >> 20) as usize)));
         }
     });
