@@ -124,12 +124,12 @@ impl Walkthrough {
     }
 
     fn welcome(&mut self) {
+        self.forget();
         let Some(place) = &self.session.place else { return };
         self.window.set_title(&format!("{} - Hemicube", place.scene.name));
         self.panels.light.reset_groups(&place.scene);
         self.panels.selection = Default::default();
         self.panels.trouble = None;
-        self.forget();
         if let Some(advice) = place.advice.first().filter(|advice| *advice == super::default_sky::NOTE) {
             self.panels.notice = Some(Notice::new(advice.as_str()));
         }
