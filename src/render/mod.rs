@@ -7,6 +7,7 @@
 
 pub mod compare;
 pub mod develop;
+pub mod flip;
 pub mod frame;
 pub mod look;
 pub mod picture;
@@ -18,7 +19,7 @@ mod meter;
 mod surface;
 mod tonemap;
 
-pub use compare::{Difference, Raster, compare};
+pub use compare::{Difference, Raster, compare, visible_difference};
 pub use develop::develop;
 pub use frame::Renderer;
 pub use look::{Exposure, Look, Shading, ToneMap};
