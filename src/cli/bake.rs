@@ -13,7 +13,8 @@ use crate::base::output::write_whole;
 /// Options of `hemicube bake`.
 #[derive(Args, Debug)]
 pub struct BakeArgs {
-    /// Scene to bake: .glb or .gltf (FILE#NAME chooses one of its scenes), builtin:gallery or builtin:cornell.
+    /// Scene to bake: .glb or .gltf (FILE#NAME chooses one of its scenes), or builtin:gallery,
+    /// builtin:cornell or builtin:mirrors.
     #[arg(default_value = "builtin:gallery")]
     pub scene: PathBuf,
     /// The baked scene, a .glb.
