@@ -15,3 +15,4 @@ mod radiosity;
 mod raytrace;
 mod render_command;
 mod shadows;
+mod twins;

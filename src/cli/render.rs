@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 
-use super::bake_options::{BakeOptions, bake_device, lit_scene, load, positive};
+use super::bake_options::{BakeOptions, VariantOption, bake_device, lit_scene, load, positive};
 use super::judge::judge;
 use super::patch_view::{patch_viewpoint, view_from_patch};
 use super::ray_options::{RayOptions, RendererName};
@@ -25,6 +25,9 @@ pub struct RenderArgs {
     /// builtin:cornell or builtin:mirrors.
     #[arg(default_value = "builtin:gallery")]
     pub scene: PathBuf,
+    /// Which materials it wears.
+    #[command(flatten)]
+    pub variant: VariantOption,
     /// The picture: .png as displayed, .exr as linear radiance (nit, before exposure).
     #[arg(short, long, value_name = "IMG")]
     pub output: PathBuf,
@@ -103,7 +106,7 @@ pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
         bail!("--shadows is for the raster renderer; rays find their own shadows");
     }
     let reference = args.reference.as_deref().map(Raster::load).transpose()?;
-    let scene = load(&args.scene)?;
+    let scene = load(&args.scene, &args.variant)?;
     if let Some(at) = &args.hemicube_at {
         return view_from_patch(scene, at, args, is_quiet);
     }
@@ -208,7 +211,8 @@ fn size(text: &str) -> Result<Size, String> {
         .ok_or_else(|| "must look like 1280x720".to_owned())
 }
 
-fn exposure(text: &str) -> Result<Exposure, String> {
+/// Parses an exposure value, or `auto`.
+pub(super) fn exposure(text: &str) -> Result<Exposure, String> {
     match text.parse() {
         Ok(ev) if f32::abs(ev) <= 64.0 => Ok(Exposure::Ev(ev)),
         _ if text == "auto" => Ok(Exposure::Auto),

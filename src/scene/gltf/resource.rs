@@ -7,6 +7,9 @@ use base64::engine::DecodePaddingMode;
 use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::percent_decode_str;
 
+/// Largest file that is read.
+pub(super) const MAX_FILE_BYTES: u64 = 4 << 30;
+
 /// Bytes of `uri`; `folder` is where the scene lies, none for built-in bytes.
 ///
 /// Errors: one sentence that names the URI, for the caller to put into its own error or note.
@@ -20,7 +23,15 @@ pub(super) fn fetch(uri: &str, folder: Option<&Path>) -> Result<Vec<u8>, String>
     if !path.is_file() {
         return Err(format!("the file {uri:?} is missing (it belongs beside the scene)"));
     }
-    std::fs::read(&path).map_err(|error| format!("cannot read {uri:?}: {error}"))
+    let failed = |error: std::io::Error| format!("cannot read {uri:?}: {error}");
+    // A link inside the folder may lead out of it.
+    if !path.canonicalize().map_err(failed)?.starts_with(folder.canonicalize().map_err(failed)?) {
+        return Err(refused(uri));
+    }
+    if std::fs::metadata(&path).map_err(failed)?.len() > MAX_FILE_BYTES {
+        return Err(format!("the file {uri:?} is too large"));
+    }
+    std::fs::read(&path).map_err(failed)
 }
 
 fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
@@ -37,14 +48,19 @@ fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
 /// The path inside the scene's folder that a URI names; whatever could lead out of the folder is refused.
 fn relative_path(uri: &str) -> Result<PathBuf, String> {
     let decoded = percent_decode_str(uri).decode_utf8().map_err(|_| format!("{uri:?} is not UTF-8"))?;
-    let refused = || format!("{uri:?} is refused: only files in the scene's own folder and data: URIs are read");
     // A colon or backslash means another scheme, a drive, or a Windows path.
     if decoded.is_empty() || decoded.contains([':', '\\', '\0']) {
-        return Err(refused());
+        return Err(refused(uri));
     }
     let path = PathBuf::from(decoded.as_ref());
     let stays_inside = path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
-    if stays_inside { Ok(path) } else { Err(refused()) }
+    if stays_inside { Ok(path) } else { Err(refused(uri)) }
+}
+
+fn refused(uri: &str) -> String {
+    // A URI may be as long as its author likes; the message is one line to read.
+    let shown: String = uri.chars().take(80).collect();
+    format!("{shown:?} is refused: only files in the scene's own folder and data: URIs are read")
 }
 
 #[cfg(test)]
@@ -57,6 +73,20 @@ mod tests {
         assert_eq!(fetch("data:;base64,AQI", None), Ok(vec![1, 2]));
         assert_eq!(fetch("data:text/plain,a%20b", None), Ok(b"a b".to_vec()));
         assert!(fetch("data:;base64,*", None).is_err());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_that_leads_out_of_the_folder_is_refused() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let inner = folder.path().join("inner");
+        std::fs::create_dir(&inner).expect("made");
+        std::fs::write(folder.path().join("secret.bin"), b"secret").expect("written");
+        std::os::unix::fs::symlink("../secret.bin", inner.join("link.bin")).expect("linked");
+        std::fs::write(inner.join("own.bin"), b"own").expect("written");
+        std::os::unix::fs::symlink("own.bin", inner.join("alias.bin")).expect("linked");
+        assert!(fetch("link.bin", Some(&inner)).expect_err("outside").contains("is refused"));
+        assert_eq!(fetch("alias.bin", Some(&inner)), Ok(b"own".to_vec()));
     }
 
     #[test]
