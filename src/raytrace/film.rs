@@ -27,6 +27,9 @@ pub struct Film {
     sums: Vec<[Vec4; 2]>,
 }
 
+/// What a pass adds to pixels, by their number.
+type Tile = Vec<(u32, [Vec4; 2])>;
+
 /// How well a picture is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmNoise {
@@ -78,7 +81,7 @@ impl Film {
         let tiles = [self.size[0].div_ceil(TILE), self.size[1].div_ceil(TILE)];
         let num_tiles = tiles[0] * tiles[1];
         let num_done = AtomicUsize::new(0);
-        let traced: Option<Vec<Vec<(u32, [Vec4; 2])>>> = (0..num_tiles)
+        let traced: Option<Vec<Tile>> = (0..num_tiles)
             .into_par_iter()
             .map(|tile| {
                 progress.rest();
