@@ -20,7 +20,7 @@ const BATCH: u32 = 1 << 17;
 const CHUNK: u32 = 1 << 12;
 
 /// Photons that are enough where they land.
-const ENOUGH: usize = 1 << 18;
+const ENOUGH: usize = 1 << 19;
 
 /// Photons after which shooting ends in any case.
 const MOST: u32 = 1 << 21;

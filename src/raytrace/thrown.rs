@@ -23,10 +23,13 @@ use crate::base::sampling::{cosine_hemisphere, triangle_from_square};
 use crate::scene::{Scene, area_of, normal_of};
 
 /// Extended form factors that are kept.
-const MOST_FACTORS: usize = 1 << 21;
+const MOST_FACTORS: usize = 1 << 22;
 
 /// Fewest and most rays an element.
 const NUM_RAYS: [usize; 2] = [4, 128];
+
+/// Rays that a stored value should rest on; where an element has fewer, its neighbours' count too.
+const SMOOTH_RAYS: usize = 256;
 
 /// Passes over all form factors after which solving ends in any case.
 const MOST_PASSES: u32 = 64;
@@ -69,22 +72,28 @@ pub(super) fn thrown_light(
     let areas: Vec<f32> = (0..scene.triangles.len()).map(|t| area_of(scene.corners(TriangleId::new(t)))).collect();
     let flux = flux_by_mirrors(rays, |triangle, is_front| stored.side(triangle, is_front), progress)?;
     let by_mirrors: Vec<Vec3> = flux.iter().zip(&areas).map(|(&flux, &area)| flux / area).collect();
-    let elements = elements(rays, stored, progress)?;
+    let num_rays = (MOST_FACTORS / areas.len().max(1)).clamp(NUM_RAYS[0], NUM_RAYS[1]);
+    let elements = elements(rays, stored, num_rays as u32, progress)?;
     let from_lamps: Vec<Vec3> =
         by_mirrors.iter().zip(&elements).map(|(&e, element)| e + element.through_panes).collect();
     let reflected = solved(&elements, &from_lamps);
     let through_panes: Vec<Vec3> = elements.iter().map(|element| element.through_panes).collect();
+    let stored = |values: Vec<Vec3>| smoothed(scene, &areas, values, SMOOTH_RAYS / num_rays);
     Some(ThrownLight {
-        through_panes: at_vertices(scene, &areas, &through_panes),
-        by_mirrors: at_vertices(scene, &areas, &by_mirrors),
-        reflected: at_vertices(scene, &areas, &reflected),
+        through_panes: stored(through_panes),
+        by_mirrors: stored(by_mirrors),
+        reflected: stored(reflected),
     })
 }
 
 /// Looks round from every element.
-fn elements(rays: &PathTracer<'_>, stored: &StoredLight<'_>, progress: &dyn Progress) -> Option<Vec<Element>> {
+fn elements(
+    rays: &PathTracer<'_>,
+    stored: &StoredLight<'_>,
+    num_rays: u32,
+    progress: &dyn Progress,
+) -> Option<Vec<Element>> {
     let num_elements = rays.scene().triangles.len();
-    let num_rays = (MOST_FACTORS / num_elements.max(1)).clamp(NUM_RAYS[0], NUM_RAYS[1]) as u32;
     let element = |t: usize| {
         if t.is_multiple_of(1024) {
             progress.rest();
@@ -153,6 +162,18 @@ fn solved(elements: &[Element], from_lamps: &[Vec3]) -> Vec<Vec3> {
         }
     }
     reflected
+}
+
+/// Values of triangles at their vertices, spread over neighbours `num_times`; no light is lost.
+fn smoothed(scene: &Scene, areas: &[f32], mut values: Vec<Vec3>, num_times: usize) -> Vec<Vec3> {
+    let mut found = at_vertices(scene, areas, &values);
+    for _ in 0..num_times {
+        for (value, triangle) in values.iter_mut().zip(&scene.triangles) {
+            *value = triangle.vertices.iter().map(|&v| found[v as usize]).sum::<Vec3>() / 3.0;
+        }
+        found = at_vertices(scene, areas, &values);
+    }
+    found
 }
 
 /// Means over the triangles round each vertex, by area, so that no light is lost.
