@@ -229,6 +229,19 @@ fn corrupted_files_never_panic() {
 /// Longest that a file of the corpus may take; the machine may be busy.
 const MAX_SECONDS: f32 = 5.0;
 
+/// Files on which a fuzzer once made the loader or the doctor fail.
+#[test]
+fn files_that_once_crashed_do_so_no_more() {
+    let mut num_files = 0;
+    for entry in fs::read_dir("tests/crashes").expect("the folder is there").flatten() {
+        let bytes = fs::read(entry.path()).expect("it can be read");
+        let name = entry.path().display().to_string();
+        let _ = load_calmly(&name, || gltf::from_slice(&name, &bytes)).map(|scene| doctor::examine(&scene).lines());
+        num_files += 1;
+    }
+    assert!(num_files > 0, "the folder of crashes is empty");
+}
+
 fn scenes_below(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let path = entry.path();

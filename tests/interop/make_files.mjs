@@ -1,5 +1,7 @@
 // Writes tests/files/*.glb: a small scene in plain glTF 2.0, and the same scene by way of each extension that is read.
 //
+// node make_files.mjs small writes a coarser set to fuzz/small, for fuzzers to begin with.
+//
 // The encoders are those of glTF Transform, Draco, meshoptimizer, sharp and Basis Universal. tests/twins.rs loads every
 // file and holds it against its plain twin.
 
@@ -11,7 +13,10 @@ import { ktx2 } from 'ktx2-encoder/gltf-transform';
 import { MeshoptDecoder, MeshoptEncoder } from 'meshoptimizer';
 import sharp from 'sharp';
 
-const folder = new URL('../files/', import.meta.url).pathname;
+const isSmall = process.argv[2] === 'small';
+const folder = new URL(isSmall ? '../../fuzz/small/' : '../files/', import.meta.url).pathname;
+const [columns, rows] = isSmall ? [5, 3] : [16, 10];
+const pixelsAcross = isSmall ? 8 : 64;
 await MeshoptEncoder.ready;
 const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies({
   'draco3d.encoder': await draco3d.createEncoderModule(),
@@ -20,9 +25,8 @@ const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies(
   'meshopt.decoder': MeshoptDecoder,
 });
 
-/// A ball of 16 x 10 squares, smooth, with texture coordinates and vertex colours.
+/// A ball of columns x rows squares, smooth, with texture coordinates and vertex colours.
 function ball(document, radius = 1) {
-  const [columns, rows] = [16, 10];
   const [positions, normals, uv, colours, indices] = [[], [], [], [], []];
   for (let j = 0; j <= rows; j++) {
     for (let i = 0; i <= columns; i++) {
@@ -52,9 +56,9 @@ function ball(document, radius = 1) {
     .setIndices(accessor(Accessor.Type.SCALAR, new Uint16Array(indices)));
 }
 
-/// Soft hills of colour, as photographs have them, 64 pixels square.
+/// Soft hills of colour, as photographs have them.
 async function picture() {
-  const size = 64;
+  const size = pixelsAcross;
   const pixels = Buffer.alloc(size * size * 3);
   for (let y = 0; y < size; y++) {
     for (let x = 0; x < size; x++) {

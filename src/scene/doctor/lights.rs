@@ -6,11 +6,16 @@ use super::{Finding, Kind, Place};
 use crate::base::ids::TriangleId;
 use crate::scene::{Light, LightKind, Scene};
 
+/// Most pairs of light and triangle that are looked at; with more lights than that, none is doubted.
+const MAX_PAIRS: usize = 200_000_000;
+
 /// Lights whose range or cone no surface reaches into, and emissive materials that nothing wears.
 ///
 /// Surfaces are taken as larger than they are (by the sphere round a triangle), so that no light is accused wrongly.
 pub(super) fn without_effect(scene: &Scene) -> Finding {
-    let idle: Vec<&Light> = scene.lights.iter().filter(|light| !reaches_anything(light, scene)).collect();
+    let is_affordable = scene.lights.len().saturating_mul(scene.triangles.len()) <= MAX_PAIRS;
+    let doubted = scene.lights.iter().filter(|light| is_affordable && !reaches_anything(light, scene));
+    let idle: Vec<&Light> = doubted.collect();
     let mut is_worn = vec![false; scene.materials.len()];
     for triangle in &scene.triangles {
         is_worn[triangle.material.index()] = true;

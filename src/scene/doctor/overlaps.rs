@@ -16,6 +16,9 @@ const MIN_SHARE: f64 = 1e-3;
 /// Most pairs that are compared; a mesh that asks for more is not worth the wait.
 const MAX_PAIRS: usize = 20_000_000;
 
+/// Most cells of the search grid of one plane.
+const MAX_CELLS: f64 = 2e6;
+
 /// A triangle in the coordinates of its plane.
 struct Flat {
     index: usize,
@@ -64,11 +67,11 @@ fn overlaps_in_plane(welded: &Welded, triangles: &[usize], pairs_left: &mut usiz
     let extent = flats.iter().map(|flat| (flat.high - flat.low).max_element()).sum::<f64>() / flats.len() as f64;
     let cell = extent.max(f64::MIN_POSITIVE);
     let mut grid: HashMap<[i64; 2], Vec<usize>> = HashMap::new();
+    let mut cells_left = MAX_CELLS;
     for (f, flat) in flats.iter().enumerate() {
         let [low, high] = [flat.low, flat.high].map(|corner| (corner / cell).floor());
-        let num_cells = (high - low + 1.0).element_product();
-        *pairs_left = pairs_left.saturating_sub(num_cells as usize);
-        if *pairs_left == 0 {
+        cells_left -= (high - low + 1.0).element_product();
+        if cells_left < 0.0 {
             return;
         }
         for x in low.x as i64..=high.x as i64 {

@@ -96,7 +96,9 @@ fn overlaps_in_a_plane_are_found_whichever_way_they_face_and_neighbours_are_not(
     let [a, b, c] = shifted;
     assert_eq!(count(&soup(&[[O, X, Y], [a, b, c]]), Kind::CoplanarOverlap), 2);
     assert_eq!(count(&soup(&[[O, X, Y], [a, c, b]]), Kind::CoplanarOverlap), 2);
-    assert_eq!(count(&soup(&[[O, X, Y], [X, [1.0, 1.0, 0.0], Y]]), Kind::CoplanarOverlap), 0);
+    let corner = [1.0, 1.0, 0.0];
+    assert_eq!(count(&soup(&[[O, X, Y], [X, corner, Y]]), Kind::CoplanarOverlap), 0);
+    assert_eq!(count(&soup(&[[O, X, Y], [X, Y, corner]]), Kind::CoplanarOverlap), 0);
     let lifted = shifted.map(|[x, y, _]| [x, y, 0.001]);
     assert_eq!(count(&soup(&[[O, X, Y], lifted]), Kind::CoplanarOverlap), 0);
 }

@@ -14,6 +14,9 @@ use super::container::{self, Parts};
 use super::error::Cause;
 use super::resource;
 
+/// Most bytes of all buffers that lie outside the file itself: many buffers may name one file.
+const MAX_EXTERNAL_BYTES: u64 = 4 << 30;
+
 /// Typed JSON and the bytes it speaks of.
 pub(super) struct Document<'a> {
     /// The JSON, not validated: look up through [`Document::find`].
@@ -31,8 +34,9 @@ impl<'a> Document<'a> {
     /// Parses a file and fetches its buffers; a buffer that cannot be had is an error only when it is used.
     pub fn parse(bytes: &'a [u8], folder: Option<&'a Path>) -> Result<Self, Cause> {
         let Parts { root, skins, blob } = container::split(bytes)?;
+        let mut left = MAX_EXTERNAL_BYTES;
         let buffers = root.buffers.iter().enumerate().map(|(i, buffer)| match &buffer.uri {
-            Some(uri) => resource::fetch(uri, folder).map(Cow::Owned),
+            Some(uri) => resource::fetch(uri, folder, &mut left).map(Cow::Owned),
             None => blob.filter(|_| i == 0).map(Cow::Borrowed).ok_or_else(|| "it has no data".to_owned()),
         });
         let buffers = buffers.collect();

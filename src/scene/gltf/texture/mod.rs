@@ -22,6 +22,12 @@ use crate::scene::{Image, Sampler, Texture, Wrap};
 /// Extensions that name an image of a kind that plain glTF has not, in the order in which they are taken.
 const SOURCE_EXTENSIONS: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
+/// Most bytes of all encoded image files.
+const MAX_ENCODED_BYTES: u64 = 4 << 30;
+
+/// Most pixels of all images together: 4 GiB.
+const MAX_PIXELS: u64 = 1 << 30;
+
 /// Textures in the order in which materials first asked for them.
 #[derive(Default)]
 pub(super) struct TextureTable {
@@ -54,8 +60,8 @@ impl TextureTable {
                 sources.insert(source, document.find(image, "image", || format!("texture {i}"))?);
             }
         }
-        let sources: Vec<_> = sources.into_iter().collect();
-        let decoded: Vec<_> = sources.par_iter().map(|&(i, image)| (i, read_image(document, i, image))).collect();
+        let fetched = fetch_images(document, sources);
+        let decoded: Vec<_> = fetched.into_par_iter().map(|(i, image)| (i, image.and_then(Encoded::decode))).collect();
         let images: HashMap<_, _> = decoded.into_iter().map(|(i, image)| (i, or_stand_in(image, notes))).collect();
         textures
             .into_iter()
@@ -102,18 +108,53 @@ fn or_stand_in(image: Result<Image, String>, notes: &mut Vec<String>) -> Arc<Ima
     }))
 }
 
-fn read_image(document: &Document<'_>, index: usize, image: &json::Image) -> Result<Image, String> {
-    let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
-    let name = image.name.as_deref().or(uri).map_or_else(|| format!("image {index}"), str::to_owned);
-    let failed = |problem: String| format!("texture image {name:?}: {problem}");
-    let encoded = encoded_bytes(document, index, image).map_err(failed)?;
-    let Pixels { width, height, rgba, mime_type } = decode::decode(&encoded).map_err(failed)?;
-    Ok(Image { width, height, rgba, mime_type: mime_type.to_owned(), encoded, name })
+/// An image before it is decoded.
+struct Encoded {
+    name: String,
+    bytes: Vec<u8>,
 }
 
-fn encoded_bytes(document: &Document<'_>, index: usize, image: &json::Image) -> Result<Vec<u8>, String> {
+impl Encoded {
+    fn failed(name: &str, problem: &str) -> String {
+        format!("texture image {name:?}: {problem}")
+    }
+
+    fn decode(self) -> Result<Image, String> {
+        let Self { name, bytes: encoded } = self;
+        let decoded = decode::decode(&encoded).map_err(|problem| Self::failed(&name, &problem))?;
+        let Pixels { width, height, rgba, mime_type } = decoded;
+        Ok(Image { width, height, rgba, mime_type: mime_type.to_owned(), encoded, name })
+    }
+}
+
+/// Encoded images by index, as long as what they claim to hold fits in memory.
+fn fetch_images(
+    document: &Document<'_>,
+    sources: BTreeMap<usize, &json::Image>,
+) -> Vec<(usize, Result<Encoded, String>)> {
+    let (mut bytes_left, mut pixels_left) = (MAX_ENCODED_BYTES, MAX_PIXELS);
+    let fetch = |(index, image): (usize, &json::Image)| {
+        let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
+        let name = image.name.as_deref().or(uri).map_or_else(|| format!("image {index}"), str::to_owned);
+        let fetched = encoded_bytes(document, index, image, &mut bytes_left).and_then(|bytes| {
+            let claimed = decode::claimed_pixels(&bytes)?;
+            pixels_left = pixels_left.checked_sub(claimed).ok_or("all images together are too large")?;
+            Ok(bytes)
+        });
+        let named = |problem: String| Encoded::failed(&name, &problem);
+        (index, fetched.map_err(named).map(|bytes| Encoded { name: name.clone(), bytes }))
+    };
+    sources.into_iter().map(fetch).collect()
+}
+
+fn encoded_bytes(
+    document: &Document<'_>,
+    index: usize,
+    image: &json::Image,
+    bytes_left: &mut u64,
+) -> Result<Vec<u8>, String> {
     match (&image.uri, image.buffer_view) {
-        (Some(uri), _) => resource::fetch(uri, document.folder),
+        (Some(uri), _) => resource::fetch(uri, document.folder, bytes_left),
         (None, Some(view)) => {
             let view = document.view(view, || format!("image {index}"));
             view.map(|(bytes, _)| bytes.to_vec()).map_err(|cause| cause.to_string())
