@@ -214,10 +214,14 @@ impl Session {
         let unshot = solved.report.as_ref().map_or(0.0, |report| 100.0 * report.unshot_share);
         self.outcome = LightState::Baked { elapsed };
         self.retire();
+        let mut is_lit = true;
         if let Some(place) = &mut self.place {
             place.settle(solved);
+            is_lit = place.is_lit;
         }
-        Outcome::Note(if was_cancelled {
+        Outcome::Note(if !is_lit {
+            "No light arrives on any surface: shown in an even work light".to_owned()
+        } else if was_cancelled {
             format!("Bake ended early: {unshot:.1} % of the light is not shot")
         } else {
             format!("Light solved in {:.1} s", elapsed.as_secs_f32())

@@ -3,6 +3,7 @@
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Ui, pos2, vec2};
 use glam::Vec3;
 
+use super::super::settings::GroupDial;
 use super::widgets::lux;
 use super::{Facts, theme};
 use crate::render::turbo;
@@ -10,7 +11,7 @@ use crate::render::turbo;
 /// Most numbers of a grid that are written into the picture.
 const MAX_NUMBERS: usize = 120;
 
-pub fn markers_ui(ui: &mut Ui, free: Rect, facts: &Facts<'_>) {
+pub fn markers_ui(ui: &mut Ui, free: Rect, dials: &[GroupDial], facts: &Facts<'_>) {
     let Some(eye) = facts.eye else { return };
     let aspect = facts.picture_size[0] as f32 / facts.picture_size[1] as f32;
     let painter = ui.painter_at(free);
@@ -34,11 +35,12 @@ pub fn markers_ui(ui: &mut Ui, free: Rect, facts: &Facts<'_>) {
     }
     for reading in facts.meter.pins {
         let Some(at) = place(reading.point.position) else { continue };
-        pin(&painter, at, &format!("{} lx", lux(reading.lux())), Color32::WHITE);
+        pin(&painter, at, &format!("{} lx", lux(reading.dimmed_lux(dials))), Color32::WHITE);
     }
-    if let Some(at) = facts.meter.last.and_then(|last| place(last.point.position)) {
-        let text = facts.meter.last.map_or(String::new(), |last| format!("{} lx", lux(last.lux())));
-        pin(&painter, at, &text, theme::ACCENT);
+    if let Some(last) = facts.meter.last
+        && let Some(at) = place(last.point.position)
+    {
+        pin(&painter, at, &format!("{} lx", lux(last.dimmed_lux(dials))), theme::ACCENT);
     }
     if let Some(at) = facts.sight.and_then(|sight| place(sight.point.position)) {
         pin(&painter, at, "view from here", theme::ACCENT);

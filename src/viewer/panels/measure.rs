@@ -64,12 +64,14 @@ fn tool_ui(ui: &mut Ui, tool: Tool, commands: &mut Vec<Command>) {
 }
 
 fn reading_ui(ui: &mut Ui, reading: &Reading, dials: &[GroupDial]) {
+    let is_dimmed = dials.iter().any(|dial| !dial.is_as_baked());
     ui.horizontal(|ui| {
         ui.label(RichText::new(format!("{} lx", lux(reading.lux()))).heading().color(theme::ACCENT));
-        let is_dimmed = dials.iter().any(|dial| !dial.is_as_baked());
-        ui.label(RichText::new(if is_dimmed { "as baked" } else { "" }).weak());
+        if is_dimmed {
+            ui.label(RichText::new("as baked").weak());
+        }
     });
-    if dials.iter().any(|dial| !dial.is_as_baked()) {
+    if is_dimmed {
         row(ui, "As the dials are", format!("{} lx", lux(reading.dimmed_lux(dials))));
     }
     let direct = reading.direct_share();

@@ -177,7 +177,7 @@ impl Panels {
         if facts.scene.is_none() && self.trouble.is_none() {
             message::empty_ui(ui.ctx(), free, &facts.light);
         }
-        markers::markers_ui(ui, free, facts);
+        markers::markers_ui(ui, free, &self.light.groups, facts);
         if self.light.shading == Shading::FalseColour && facts.scene.is_some() {
             legend::legend_ui(ui, free, &self.light.lux_scale.in_order());
         }

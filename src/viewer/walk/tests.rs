@@ -201,3 +201,44 @@ fn there_is_no_walking_without_a_floor() {
     let world = world(&[level(0.0, [-1.0, 1.0], [-1.0, 1.0])]);
     assert!(Walker::land(Body::of_scale(1.0), Vec3::new(5.0, 1.0, 0.0), &world).is_none());
 }
+
+/// Walks towards a place on the floor plan until it is near; fails where that takes too long.
+fn walk_to(walker: &mut Walker, x: f32, z: f32, collider: &Collider) {
+    const SPEED: f32 = 2.0;
+    for _ in 0..1200 {
+        let way = Vec3::new(x - walker.eye().x, 0.0, z - walker.eye().z);
+        if way.length() < 0.1 {
+            return;
+        }
+        walker.advance(way.normalize() * SPEED * FRAME, FRAME, collider);
+    }
+    panic!("stuck at {} on the way to {x}, {z}", walker.eye());
+}
+
+#[test]
+fn the_gallery_is_walked_through_its_door_up_its_steps_and_back() {
+    let gallery = Collider::new(&crate::scene::builtin::by_name("gallery").expect("it is built in"));
+    let mut walker = walker(Vec3::new(-2.0, 0.0, 3.6), &gallery);
+    for (x, z, floor) in [(1.5, 3.6, 0.0), (6.2, 3.6, 0.0), (9.2, 3.6, 1.02), (6.2, 3.6, 0.0), (-2.0, 3.6, 0.0)] {
+        walk_to(&mut walker, x, z, &gallery);
+        walk(&mut walker, Vec3::ZERO, 0.5, FRAME, &gallery);
+        assert!((walker.eye().y - 1.65 - floor).abs() < 0.02, "{} at {x}, {z}", walker.eye());
+    }
+}
+
+#[test]
+fn a_random_walk_stays_in_the_gallery() {
+    use crate::base::sampling::{hash, unit_float};
+    let gallery = Collider::new(&crate::scene::builtin::by_name("gallery").expect("it is built in"));
+    let (low, high) = gallery.bounds();
+    let mut walker = walker(Vec3::new(3.0, 0.0, 3.6), &gallery);
+    for step in 0..400 {
+        let dice = |salt: u32| unit_float(hash(7 * step + salt));
+        let direction = Vec3::new(dice(1) - 0.5, 0.0, dice(2) - 0.5).normalize_or_zero();
+        // From smooth frames to slideshows, crawling to running.
+        let frame = 0.25 * dice(3) + 0.001;
+        walk(&mut walker, direction * 5.0 * dice(4), 0.5, frame, &gallery);
+        let eye = walker.eye();
+        assert!(eye.cmpgt(low).all() && eye.cmplt(high).all(), "step {step}: {eye}");
+    }
+}

@@ -7,7 +7,7 @@ use winit::event_loop::EventLoopProxy;
 
 use super::news::{Event, Job, Loaded, Mesh, News};
 use super::{Shared, Source, lock};
-use crate::bake::{BakeSettings, Watch, bake};
+use crate::bake::{BakeSettings, Method, Watch, bake};
 use crate::baked::{self, BakedScene, VertexLight};
 use crate::base::progress::{Progress, Stage};
 use crate::gpu::{Gpu, SceneBuffers};
@@ -66,8 +66,10 @@ impl Runner {
 
     fn bake(&self, scene: &Arc<Scene>, settings: &BakeSettings) -> anyhow::Result<()> {
         *lock(&self.shared.threshold) = settings.threshold;
-        let gpu = Gpu::headless()?;
-        let done = bake(Some(&gpu), scene, settings, self)?;
+        // A device of its own, so that frames do not wait; rays, which a software driver is too slow for, need none.
+        let is_drawn = !self.gpu.is_software() || settings.method == Some(Method::Hemicube);
+        let gpu = is_drawn.then(Gpu::headless).transpose()?;
+        let done = bake(gpu.as_ref(), scene, settings, self)?;
         log::info!("the bake has ended");
         if let Some(mesh) = self.mesh.get() {
             mesh.set_light(&self.gpu, &done.baked.light);
