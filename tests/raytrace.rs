@@ -3,7 +3,8 @@
 use std::f32::consts::{FRAC_1_PI, PI};
 
 use glam::Vec3;
-use hemicube::bake::{BakeSettings, Quality, bake};
+use hemicube::bake::{BakeSettings, Method, Quality, Solver, bake};
+use hemicube::baked::BakedScene;
 use hemicube::base::ids::GroupId;
 use hemicube::base::progress::Unwatched;
 use hemicube::form_factor::analytic::point_to_polygon;
@@ -221,9 +222,8 @@ fn the_second_pass_adds_its_ambient_light_to_the_lamps() {
     assert!((gathered - 0.5 * 3.0 * FRAC_1_PI).abs().max_element() < 1e-3, "{gathered}");
 }
 
-#[test]
-fn radiosity_is_what_paths_find() {
-    let Some(gpu) = gpu() else { return };
+/// A room with a lamp under its ceiling.
+fn lamp_room() -> Scene {
     let mut builder = SceneBuilder::default();
     let white = builder.material(Vec3::splat(0.7), Vec3::ZERO);
     let red = builder.material(Vec3::new(0.6, 0.1, 0.1), Vec3::ZERO);
@@ -231,9 +231,11 @@ fn radiosity_is_what_paths_find() {
     let lamp = builder.material(Vec3::ZERO, Vec3::splat(50.0));
     let under_ceiling = |x: f32, z: f32| Vec3::new(x, 1.95, z);
     builder.quad([(1.0, 1.0), (2.0, 1.0), (2.0, 1.5), (1.0, 1.5)].map(|(x, z)| under_ceiling(x, z)), lamp);
-    let scene = builder.build(1);
-    let settings = BakeSettings { element_size: Some(0.15), ..BakeSettings::preset(Quality::Draft) };
-    let baked = bake(Some(gpu), &scene, &settings, &Unwatched).unwrap().baked;
+    builder.build(1)
+}
+
+/// Stored irradiance over what paths find, summed over vertices away from the edges of [`lamp_room`].
+fn baked_over_paths(scene: &Scene, baked: &BakedScene, paths: &PathSettings) -> Vec3 {
     let light = &baked.light.groups[0];
     let vertices: Vec<usize> = (0..baked.scene.vertices.len()).step_by(7).collect();
     let points: Vec<_> = vertices
@@ -241,7 +243,7 @@ fn radiosity_is_what_paths_find() {
         .map(|&v| &baked.scene.vertices[v])
         .map(|vertex| MeasuringPoint { position: vertex.position, normal: vertex.normal })
         .collect();
-    let truth = irradiance(&Tracer::new(&scene), &points, &PathSettings::default(), &Unwatched).unwrap();
+    let truth = irradiance(&Tracer::new(scene), &points, paths, &Unwatched).unwrap();
     let (mut baked_sum, mut true_sum, mut num_inside) = (Vec3::ZERO, Vec3::ZERO, 0);
     for ((&v, point), found) in vertices.iter().zip(&points).zip(&truth) {
         // Not in the edges of the room, where a point has no surface of its own, nor on the hidden back of the lamp.
@@ -254,5 +256,35 @@ fn radiosity_is_what_paths_find() {
         }
     }
     assert!(num_inside > 50, "{num_inside}");
-    assert!((baked_sum / true_sum - 1.0).abs().max_element() < 0.02, "{baked_sum} for {true_sum}");
+    baked_sum / true_sum
+}
+
+#[test]
+fn radiosity_is_what_paths_find() {
+    let Some(gpu) = gpu() else { return };
+    let scene = lamp_room();
+    let settings = BakeSettings { element_size: Some(0.15), ..BakeSettings::preset(Quality::Draft) };
+    let baked = bake(Some(gpu), &scene, &settings, &Unwatched).unwrap().baked;
+    let ratio = baked_over_paths(&scene, &baked, &PathSettings::default());
+    assert!((ratio - 1.0).abs().max_element() < 0.02, "{ratio}");
+}
+
+#[test]
+fn the_k_th_gathering_pass_is_what_paths_of_as_many_reflections_find() {
+    let scene = lamp_room();
+    for passes in 1..=3 {
+        let settings = BakeSettings {
+            element_size: Some(0.15),
+            method: Some(Method::Hemisphere),
+            solver: Solver::Gathering,
+            passes: Some(passes),
+            hemisphere_rays: 1024,
+            ..BakeSettings::preset(Quality::Draft)
+        };
+        let baked = bake(None, &scene, &settings, &Unwatched).unwrap().baked;
+        // Irradiance has yet to be reflected by the surface that the eye looks at.
+        let paths = PathSettings { max_bounces: passes as u32 - 1, ..PathSettings::default() };
+        let ratio = baked_over_paths(&scene, &baked, &paths);
+        assert!((ratio - 1.0).abs().max_element() < 0.01, "pass {passes}: {ratio}");
+    }
 }

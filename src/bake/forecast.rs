@@ -6,7 +6,7 @@ use crate::patch::{Element, MeshError, PatchMesh};
 use crate::scene::{Scene, Triangle, Vertex};
 
 /// Program, driver and their buffers, bytes.
-const PROGRAM: usize = 110 << 20;
+const PROGRAM: usize = 82 << 20;
 
 /// Elements after halving where light changes, as a multiple of those before. Light is not known yet.
 const TYPICAL_GROWTH: f64 = 1.7;
@@ -45,7 +45,8 @@ impl Forecast {
     /// As [`Self::of`], for a scene that has been cut.
     #[must_use]
     pub fn of_mesh(scene: &Scene, mesh: &PatchMesh, settings: &BakeSettings) -> Self {
-        let grown = |count: usize| (count as f64 * TYPICAL_GROWTH) as usize;
+        let growth = if settings.refine_error > 0.0 { TYPICAL_GROWTH } else { 1.0 };
+        let grown = |count: usize| (count as f64 * growth) as usize;
         let colour = size_of::<glam::Vec3>() * scene.light_groups.len();
         let an_element = size_of::<Element>() + size_of::<Triangle>() + 2 * colour;
         let a_vertex = size_of::<Vertex>() + 3 * colour;

@@ -32,6 +32,9 @@ struct Emitter {
     triangles: Range<usize>,
 }
 
+/// Group, instance, material, side and place: what triangles of one emitter have in common.
+type SurfaceKey = (GroupId, u32, u32, bool, [i32; 3]);
+
 struct EmitterTriangle {
     corners: [Vec3; 3],
     normal: Vec3,
@@ -80,7 +83,7 @@ impl Emitters {
     pub(super) fn new(scene: &Scene, mesh: &PatchMesh) -> Self {
         let (low, high) = scene.bounds();
         let place_size = PLACE_SHARE * (high - low).max_element().max(f32::MIN_POSITIVE);
-        let mut by_surface: BTreeMap<(GroupId, u32, u32, bool, [i32; 3]), Vec<EmitterTriangle>> = BTreeMap::new();
+        let mut by_surface: BTreeMap<SurfaceKey, Vec<EmitterTriangle>> = BTreeMap::new();
         for (t, root) in mesh.roots.iter().enumerate() {
             let triangle = &scene.triangles[t];
             let material = &scene.materials[triangle.material.index()];
