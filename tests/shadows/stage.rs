@@ -138,6 +138,7 @@ impl Stage {
             buffers: SceneBuffers::new(gpu, &baked),
             shadows: Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene))),
             camera: self.camera.clone(),
+            size: SIZE,
         }
     }
 
@@ -164,6 +165,7 @@ pub struct Shot {
     pub buffers: SceneBuffers,
     pub shadows: Arc<ShadowScene>,
     pub camera: Camera,
+    pub size: [u32; 2],
 }
 
 impl Shot {
@@ -177,8 +179,9 @@ impl Shot {
     }
 
     fn ask<T>(&self, gpu: &Gpu, of: impl FnOnce(&mut Judge, Case<'_>) -> T) -> T {
-        let view = &View::from_camera(&self.camera, SIZE[0] as f32 / SIZE[1] as f32);
-        let case = Case { scene: &self.buffers, shadows: &self.shadows, view, size: SIZE };
+        let size = self.size;
+        let view = &View::from_camera(&self.camera, size[0] as f32 / size[1] as f32);
+        let case = Case { scene: &self.buffers, shadows: &self.shadows, view, size };
         // Passes are made once: a driver that draws on the CPU compiles them, and that takes longer than a test.
         static JUDGE: OnceLock<Mutex<Judge>> = OnceLock::new();
         let judge = JUDGE.get_or_init(|| Mutex::new(Judge::new(gpu)));

@@ -10,6 +10,9 @@ use super::stage::{Shot, Stage, at, num_different, paint, places, raytraced, set
 use crate::support::device::gpu;
 use crate::support::quads::{slot, texture};
 
+/// Small, as volumes fill the picture thousands of times.
+const SIZE: [u32; 2] = [128, 96];
+
 /// All bodies beside one another; the numbers are those of the cases.
 fn bodies() -> Stage {
     let mut stage = Stage::new();
@@ -97,7 +100,7 @@ fn views(gpu: &Gpu) -> impl Iterator<Item = (String, Shot)> {
     cameras().into_iter().zip(lights().into_iter().cycle()).map(|((place, camera), (light, kind))| {
         let mut stage = bodies();
         stage.light(kind).camera = camera;
-        (format!("eye {place}, light {light}"), stage.shot(gpu))
+        (format!("eye {place}, light {light}"), Shot { size: SIZE, ..stage.shot(gpu) })
     })
 }
 
