@@ -90,6 +90,9 @@ fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
         case SHADING_IRRADIANCE_ONLY: {
             return light;
         }
+        case SHADING_FALSE_COLOUR: {
+            return false_colour(luminance(light) * PI);
+        }
         case SHADING_ALBEDO: {
             return reflectance;
         }

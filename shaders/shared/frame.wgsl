@@ -6,6 +6,7 @@ const SHADING_LIT: u32 = 0u;
 const SHADING_IRRADIANCE_ONLY: u32 = 1u;
 const SHADING_ALBEDO: u32 = 2u;
 const SHADING_NORMALS: u32 = 3u;
+const SHADING_FALSE_COLOUR: u32 = 4u;
 
 const TONE_MAP_NEUTRAL: u32 = 0u;
 const TONE_MAP_LINEAR: u32 = 1u;
@@ -34,6 +35,8 @@ struct Frame {
     padding: u32,
     // Homogeneous: the eye with w = 1, or the direction towards it with w = 0.
     eye: vec4f,
+    // Ends of the scale of false colours in lux, whether it is logarithmic, and parts that lines cut it into.
+    lux_scale: vec4f,
 }
 
 @group(0) @binding(0) var<uniform> frame: Frame;

@@ -5,10 +5,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use super::bake_options::{BakeOptions, bake_device, bake_watched, load, positive};
+use super::bake_options::{BakeOptions, VariantOption, bake_device, bake_watched, load, positive};
+use super::render::exposure;
 use crate::bake::{BakeSettings, Report};
 use crate::baked;
 use crate::base::output::write_whole;
+use crate::render::Exposure;
 
 /// Options of `hemicube bake`.
 #[derive(Args, Debug)]
@@ -16,9 +18,16 @@ pub struct BakeArgs {
     /// Scene to bake: .glb or .gltf (FILE#NAME chooses one of its scenes), builtin:gallery or builtin:cornell.
     #[arg(default_value = "builtin:gallery")]
     pub scene: PathBuf,
+    /// Which materials it wears.
+    #[command(flatten)]
+    pub variant: VariantOption,
     /// The baked scene, a .glb.
     #[arg(short, long, value_name = "OUT.glb")]
     pub output: PathBuf,
+    /// Exposure at which programs that know nothing of stored light show it: displayed = radiance x 2^EV; auto suits the
+    /// whole scene, and is told.
+    #[arg(long, value_name = "EV|auto", default_value = "auto", value_parser = exposure, allow_negative_numbers = true)]
+    pub exposure: Exposure,
     /// How to bake.
     #[command(flatten)]
     pub bake: BakeOptions,
@@ -38,19 +47,24 @@ pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
     if args.output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("glb")) {
         bail!("{}: a bake is written as .glb", args.output.display());
     }
-    let scene = load(&args.scene)?;
+    let scene = load(&args.scene, &args.variant)?;
     let preset = args.bake.settings();
     let settings = BakeSettings { threshold: args.threshold.unwrap_or(preset.threshold), ..preset };
     let gpu = bake_device(&settings)?;
     let bake = bake_watched(gpu.as_ref(), &scene, &settings, is_quiet)?;
-    baked::gltf::write(&args.output, &bake.baked, 0.0)?;
+    let exposure_ev = match args.exposure {
+        Exposure::Ev(ev) => ev,
+        Exposure::Auto => baked::exposure::suited(&bake.baked),
+    };
+    baked::gltf::write(&args.output, &bake.baked, exposure_ev)?;
     if let Some(path) = &args.report {
         write_report(path, &bake.report)?;
     }
     if !is_quiet {
         let Report { elements, patches, hemicubes, seconds, unshot_share, .. } = &bake.report;
         eprintln!(
-            "{}: {elements} elements, {patches} patches, {hemicubes} hemicubes, {:.2} % unshot, {:.1} s",
+            "{}: {elements} elements, {patches} patches, {hemicubes} hemicubes, {:.2} % unshot, {:.1} s; other programs \
+             show it at --exposure {exposure_ev:.2}",
             args.output.display(),
             100.0 * unshot_share,
             seconds.total

@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 use crate::bake::{Bake, BakeSettings, Method, Quality, bake};
 use crate::baked::{self, BakedScene};
 use crate::gpu::Gpu;
+use crate::scene::gltf::LoadOptions;
 use crate::scene::{Scene, builtin, gltf};
 
 use super::terminal::TerminalWatch;
@@ -31,6 +32,14 @@ pub struct BakeOptions {
     /// Ends after this many shots a patch on average [default: 64].
     #[arg(long, value_name = "N")]
     pub passes: Option<usize>,
+}
+
+/// Which of a file's material variants is meant.
+#[derive(Args, Clone, Debug)]
+pub struct VariantOption {
+    /// Material variant of the file, by name (KHR_materials_variants; `hemicube info` lists them) [default: none].
+    #[arg(long, value_name = "NAME")]
+    pub variant: Option<String>,
 }
 
 /// Presets as written on the command line.
@@ -94,12 +103,12 @@ pub fn hemicube_size(text: &str) -> Result<u32, String> {
 /// Loads a scene: a file, or `builtin:gallery`, `builtin:cornell`.
 ///
 /// # Errors
-/// The file cannot be loaded, or there is no such built-in scene.
-pub fn load(path: &Path) -> Result<Scene> {
+/// The file cannot be loaded or has no such variant, or there is no such built-in scene.
+pub fn load(path: &Path, wanted: &VariantOption) -> Result<Scene> {
     match path.to_str().and_then(|text| text.strip_prefix(builtin::PREFIX)) {
         Some(name) => builtin::by_name(name)
             .with_context(|| format!("there is no built-in scene {name}; there are {}", builtin::NAMES.join(" and "))),
-        None => Ok(gltf::load(path)?),
+        None => Ok(gltf::load_with(path, &LoadOptions { variant: wanted.variant.clone() })?),
     }
 }
 

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 
-use super::bake_options::load;
+use super::bake_options::{VariantOption, load};
 use crate::base::colour::luminance;
 use crate::scene::{Camera, Light, LightKind, Projection, Scene, doctor};
 
@@ -16,13 +16,16 @@ use crate::scene::{Camera, Light, LightKind, Projection, Scene, doctor};
 pub struct InfoArgs {
     /// Scene to look into: .glb or .gltf; FILE#NAME chooses one of its scenes.
     pub scene: PathBuf,
+    /// Which materials it wears.
+    #[command(flatten)]
+    pub variant: VariantOption,
 }
 
 /// Prints the report on stdout.
 ///
 /// Errors: the scene cannot be loaded.
 pub fn run(args: &InfoArgs) -> Result<()> {
-    let scene = load(&args.scene)?;
+    let scene = load(&args.scene, &args.variant)?;
     let mut text = String::new();
     write_report(&mut text, &scene)?;
     match std::io::stdout().write_all(text.as_bytes()) {
@@ -50,6 +53,8 @@ fn write_report(out: &mut String, scene: &Scene) -> fmt::Result {
     section(out, "emissive materials", emitters(scene))?;
     let groups = scene.light_groups.iter().enumerate().map(|(g, name)| (g.to_string(), name.clone()));
     section(out, "light groups", groups)?;
+    let variants = scene.variants.iter().enumerate().map(|(v, name)| (v.to_string(), name.clone()));
+    section(out, "variants", variants)?;
     section(out, "cameras", scene.cameras.iter().map(|camera| (camera.name.clone(), describe_camera(camera))))?;
     let stored = scene.irradiance.iter().map(|stored| (stored.name.clone(), format!("{} values", stored.values.len())));
     section(out, "stored light", stored)?;

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
 use glam::Vec3;
 
-use super::bake_options::{BakeOptions, bake_device, bake_watched, load};
+use super::bake_options::{BakeOptions, VariantOption, bake_device, bake_watched, load};
 use super::terminal::TerminalWatch;
 use crate::bake::measure::{MeasureSettings, Measured, look_up, measure};
 use crate::baked::{self, BakedScene};
@@ -23,6 +23,9 @@ pub struct MeasureArgs {
     /// Scene to measure in: .glb or .gltf, baked or not (FILE#NAME chooses one of its scenes), builtin:gallery or
     /// builtin:cornell.
     pub scene: PathBuf,
+    /// Which materials it wears.
+    #[command(flatten)]
+    pub variant: VariantOption,
     /// Table of points: a header, then px,py,pz,nx,ny,nz a line (metres, normal); further columns are ignored.
     #[arg(long, value_name = "P.csv")]
     pub points: PathBuf,
@@ -61,7 +64,7 @@ pub enum Renderer {
 /// The scene or the points cannot be read, the scene cannot be baked, it was stopped, or the table cannot be written.
 pub fn run(args: &MeasureArgs, is_quiet: bool) -> Result<()> {
     let points = read_points(&args.points)?;
-    let scene = load(&args.scene)?;
+    let scene = load(&args.scene, &args.variant)?;
     let table = match args.renderer {
         Renderer::Path => truth(&scene, &points, args, is_quiet)?,
         Renderer::Radiosity => radiosity(scene, &points, args, is_quiet)?,

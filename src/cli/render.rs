@@ -4,9 +4,9 @@ use std::path::PathBuf;
 
 use anyhow::{Context, Result, bail};
 use clap::{Args, ValueEnum};
-use glam::Vec3;
+use glam::{Vec2, Vec3, Vec3Swizzles as _};
 
-use super::bake_options::{BakeOptions, bake_device, lit_scene, load, positive};
+use super::bake_options::{BakeOptions, VariantOption, bake_device, lit_scene, load, positive};
 use super::patch_view::{patch_viewpoint, view_from_patch};
 use super::ray_options::{RayOptions, RendererName};
 use super::shadow_options::{ShadowOptions, compare_shadows};
@@ -24,16 +24,23 @@ pub struct RenderArgs {
     /// builtin:cornell.
     #[arg(default_value = "builtin:gallery")]
     pub scene: PathBuf,
+    /// Which materials it wears.
+    #[command(flatten)]
+    pub variant: VariantOption,
     /// The picture: .png as displayed, .exr as linear radiance (nit, before exposure).
     #[arg(short, long, value_name = "IMG")]
     pub output: PathBuf,
     /// Camera of the scene, by name or by number from 0 [default: the first, or an overview where there is none].
     #[arg(long, value_name = "NAME|INDEX")]
     pub camera: Option<String>,
+    /// Eye, direction of sight and vertical field of view in degrees, as the viewer copies them.
+    #[arg(long, value_name = "X,Y,Z,DX,DY,DZ,FOV", value_parser = eye, allow_hyphen_values = true,
+          conflicts_with = "camera")]
+    pub eye: Option<Camera>,
     /// Draws what a patch sees instead: the unfolded hemicube at this place with this normal; a second picture,
     /// IMG-items.png, has a colour for each element.
     #[arg(long, value_name = "X,Y,Z,NX,NY,NZ", value_parser = patch_viewpoint, allow_hyphen_values = true,
-          conflicts_with_all = ["camera", "renderer", "reference"])]
+          conflicts_with_all = ["camera", "eye", "renderer", "reference"])]
     pub hemicube_at: Option<MeasuringPoint>,
     /// Pixels across and down.
     #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = size)]
@@ -101,11 +108,11 @@ pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
         bail!("--shadows is for the raster renderer; rays find their own shadows");
     }
     let reference = args.reference.as_deref().map(Raster::load).transpose()?;
-    let scene = load(&args.scene)?;
+    let scene = load(&args.scene, &args.variant)?;
     if let Some(at) = &args.hemicube_at {
         return view_from_patch(scene, at, args, is_quiet);
     }
-    let camera = choose_camera(&scene, args.camera.as_deref())?;
+    let camera = args.eye.clone().map_or_else(|| choose_camera(&scene, args.camera.as_deref()), Ok)?;
     if let Some(techniques) = args.shadows.compared()? {
         let gpu = Gpu::headless()?;
         check_size(&gpu, args.size.0)?;
@@ -225,7 +232,20 @@ fn size(text: &str) -> Result<Size, String> {
         .ok_or_else(|| "must look like 1280x720".to_owned())
 }
 
-fn exposure(text: &str) -> Result<Exposure, String> {
+/// Parses an eye.
+fn eye(text: &str) -> Result<Camera, String> {
+    let numbers: Option<Vec<f32>> = text.split(',').map(|number| number.trim().parse().ok()).collect();
+    let numbers = numbers.and_then(|numbers| <[f32; 7]>::try_from(numbers).ok());
+    let [x, y, z, dx, dy, dz, fov] = numbers
+        .filter(|numbers| numbers.iter().all(|number| number.is_finite()) && (1.0..=170.0).contains(&numbers[6]))
+        .ok_or("must be seven numbers, X,Y,Z,DX,DY,DZ,FOV, FOV from 1 to 170")?;
+    let (position, direction) = (Vec3::new(x, y, z), Vec3::new(dx, dy, dz));
+    let direction = direction.try_normalize().filter(|d| d.xz() != Vec2::ZERO).ok_or("DX,DY,DZ must not be upright")?;
+    Ok(Camera::looking_at("eye", position, position + direction, fov.to_radians()))
+}
+
+/// Parses an exposure value, or `auto`.
+pub(super) fn exposure(text: &str) -> Result<Exposure, String> {
     match text.parse() {
         Ok(ev) if f32::abs(ev) <= 64.0 => Ok(Exposure::Ev(ev)),
         _ if text == "auto" => Ok(Exposure::Auto),
@@ -247,6 +267,16 @@ mod tests {
         assert_eq!(exposure("-7.5"), Ok(Exposure::Ev(-7.5)));
         for wrong in ["", "bright", "NaN", "inf", "1000"] {
             assert!(exposure(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_eye_is_read_or_refused() {
+        let camera = eye("1,1.65,-2,0,0,-2,60").expect("seven numbers");
+        assert_eq!(camera.position, Vec3::new(1.0, 1.65, -2.0));
+        assert!((camera.forward() - Vec3::NEG_Z).length() < 1e-5);
+        for wrong in ["", "1,2,3,0,0,-1", "1,2,3,0,0,-1,0", "1,2,3,0,1,0,60", "1,2,3,0,0,0,60", "a,2,3,0,0,-1,60"] {
+            assert!(eye(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -7,6 +7,7 @@ pub mod material_buffers;
 pub mod mip;
 pub mod readback;
 pub mod scene_buffers;
+mod scene_part;
 pub mod shaders;
 pub mod targets;
 pub mod textures;

@@ -13,7 +13,7 @@ use super::Gpu;
 use super::material_buffers::material_bind_groups;
 use crate::baked::{BakedScene, VertexLight};
 use crate::base::ids::MaterialId;
-use crate::scene::{AlphaMode, Scene};
+use crate::scene::{AlphaMode, Scene, Triangle};
 
 /// Half floats, of which HDR textures are made, hold this and four times as much.
 const COMFORTABLE_RADIANCE: f32 = 16_384.0;
@@ -34,9 +34,9 @@ pub struct SceneBuffers {
     pub batches: Vec<Batch>,
     /// Power of two that brings the scene's radiance into the range of half floats.
     pub pre_exposure: f32,
-    irradiance: wgpu::Buffer,
-    num_groups: usize,
-    num_vertices: usize,
+    pub(super) irradiance: wgpu::Buffer,
+    pub(super) num_groups: usize,
+    pub(super) num_vertices: usize,
 }
 
 /// Triangles that are drawn in one call.
@@ -107,7 +107,7 @@ impl SceneBuffers {
         let scene = &baked.scene;
         let num_groups = scene.light_groups.len().max(baked.light.groups.len());
         let irradiance = irradiance_buffer(gpu, num_groups, scene.vertices.len());
-        let (batches, indices) = batches(scene);
+        let (batches, indices) = batches(scene, |_| true);
         let buffers = Self {
             vertices: vertex_buffer(gpu, scene),
             indices: gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
@@ -181,12 +181,12 @@ fn light_bind_group(gpu: &Gpu, irradiance: &wgpu::Buffer) -> wgpu::BindGroup {
     })
 }
 
-/// Sorts the triangles by material, those that blend last, and cuts them into batches.
-fn batches(scene: &Scene) -> (Vec<Batch>, Vec<u32>) {
-    let mut triangles: Vec<_> = scene.triangles.iter().collect();
+/// Sorts the triangles that are shown by material, those that blend last, and cuts them into batches.
+pub(super) fn batches(scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> (Vec<Batch>, Vec<u32>) {
+    let has_twins = scene.triangles.iter().any(|triangle| triangle.is_back_side);
+    let mut triangles: Vec<_> = scene.triangles.iter().filter(|triangle| is_shown(triangle)).collect();
     let blends = |material: MaterialId| scene.materials[material.index()].alpha_mode == AlphaMode::Blend;
     triangles.sort_by_key(|triangle| (blends(triangle.material), triangle.material));
-    let has_twins = triangles.iter().any(|triangle| triangle.is_back_side);
     let mut batches = Vec::new();
     let mut start = 0;
     for same in triangles.chunk_by(|a, b| a.material == b.material) {
@@ -231,7 +231,7 @@ fn typical_white_radiance(light: &VertexLight) -> f32 {
 mod tests {
     use super::*;
     use crate::base::ids::InstanceId;
-    use crate::scene::{Material, Triangle};
+    use crate::scene::Material;
 
     fn triangle(material: u32, is_back_side: bool) -> Triangle {
         Triangle { vertices: [material; 3], material: MaterialId(material), instance: InstanceId(0), is_back_side }
@@ -246,7 +246,7 @@ mod tests {
     fn blending_triangles_are_drawn_last() {
         let modes = [(AlphaMode::Blend, false), (AlphaMode::Opaque, false)];
         let scene = scene_of(&modes, vec![triangle(0, false), triangle(1, false), triangle(0, false)]);
-        let (batches, indices) = batches(&scene);
+        let (batches, indices) = batches(&scene, |_| true);
         assert_eq!(indices, [1, 1, 1, 0, 0, 0, 0, 0, 0]);
         assert_eq!(batches.iter().map(|b| b.indices.clone()).collect::<Vec<_>>(), [0..3, 3..9]);
     }
@@ -254,7 +254,8 @@ mod tests {
     #[test]
     fn double_sided_triangles_are_culled_only_where_their_twins_exist() {
         let modes = [(AlphaMode::Opaque, true), (AlphaMode::Opaque, false)];
-        let faces = |triangles| batches(&scene_of(&modes, triangles)).0.iter().map(|b| b.faces).collect::<Vec<_>>();
+        let faces =
+            |triangles| batches(&scene_of(&modes, triangles), |_| true).0.iter().map(|b| b.faces).collect::<Vec<_>>();
         assert_eq!(faces(vec![triangle(0, false), triangle(1, false)]), [Faces::Both, Faces::Front]);
         assert_eq!(faces(vec![triangle(0, false), triangle(0, true)]), [Faces::FrontOfTwins]);
     }

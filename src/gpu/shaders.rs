@@ -21,15 +21,31 @@ macro_rules! shader {
 pub const ITEM_BUFFER: Shader = shader!("item_buffer", "item_buffer.wgsl");
 
 /// Surface pass: radiance of each visible point.
-pub const SURFACE: Shader =
-    shader!("surface", "shared/frame.wgsl", "shared/material.wgsl", "surface.wgsl", "shared/direct_stored.wgsl");
+pub const SURFACE: Shader = shader!(
+    "surface",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "surface.wgsl",
+    "shared/direct_stored.wgsl"
+);
 /// Surface pass with direct irradiance from a texture with one sample a pixel.
-pub const SURFACE_LIT: Shader =
-    shader!("surface lit", "shared/frame.wgsl", "shared/material.wgsl", "surface.wgsl", "shared/direct_one.wgsl");
+pub const SURFACE_LIT: Shader = shader!(
+    "surface lit",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "surface.wgsl",
+    "shared/direct_one.wgsl"
+);
 /// Surface pass with direct irradiance from a texture with several samples a pixel.
 pub const SURFACE_LIT_SAMPLES: Shader = shader!(
     "surface lit samples",
     "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/false_colour.wgsl",
     "shared/material.wgsl",
     "surface.wgsl",
     "shared/direct_many.wgsl"
@@ -74,6 +90,8 @@ pub const PLANAR_SHADOW: Shader = shader!("planar shadow", "shared/frame.wgsl", 
 /// Places and normals of visible points.
 pub const VISIBLE_POINTS: Shader =
     shader!("visible points", "shared/frame.wgsl", "shared/visible_point.wgsl", "raytraced.wgsl");
+/// Lines and tinted faces over a picture.
+pub const OVERLAY: Shader = shader!("overlay", "shared/frame.wgsl", "shared/colour.wgsl", "overlay.wgsl");
 /// Metering: the exposure that suits a picture.
 pub const METER: Shader = shader!("meter", "shared/frame.wgsl", "shared/colour.wgsl", "meter.wgsl");
 /// Tone mapping of a picture with one sample a pixel.
@@ -109,6 +127,7 @@ pub const ALL: &[&Shader] = &[
     &DIRECT_LIGHT_MAP,
     &PLANAR_SHADOW,
     &VISIBLE_POINTS,
+    &OVERLAY,
     &METER,
     &TONEMAP,
     &TONEMAP_SAMPLES,

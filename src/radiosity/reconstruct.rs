@@ -35,6 +35,7 @@ pub fn dark_scene(scene: &Scene, mesh: &PatchMesh) -> BakedScene {
         vertices: mesh.vertices.clone(),
         triangles,
         instances,
+        nodes: scene.nodes.clone(),
         materials: scene.materials.clone(),
         textures: scene.textures.clone(),
         lights: scene.lights.clone(),
@@ -42,6 +43,7 @@ pub fn dark_scene(scene: &Scene, mesh: &PatchMesh) -> BakedScene {
         light_groups: scene.light_groups.clone(),
         irradiance: Vec::new(),
         notes: scene.notes.clone(),
+        variants: Vec::new(),
         dropped_triangles: scene.dropped_triangles,
     };
     BakedScene { scene, light }

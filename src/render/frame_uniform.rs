@@ -28,6 +28,7 @@ struct FrameUniform {
     num_vertices: u32,
     padding: u32,
     eye: Vec4,
+    lux_scale: Vec4,
 }
 
 impl FrameUniform {
@@ -51,12 +52,14 @@ impl FrameUniform {
                 Shading::IrradianceOnly => 1,
                 Shading::Albedo => 2,
                 Shading::Normals => 3,
+                Shading::FalseColour => 4,
             },
             metal_as_diffuse: u32::from(look.metal_as_diffuse),
             num_groups: scene.num_groups() as u32,
             num_vertices: scene.num_vertices() as u32,
             padding: 0,
             eye: view.eye(),
+            lux_scale: look.lux_scale.uniform(),
         }
     }
 }
@@ -124,7 +127,8 @@ mod tests {
             num_groups,
             num_vertices,
             padding,
-            eye
+            eye,
+            lux_scale
         ];
         assert_eq!(written, struct_layout(&SURFACE, "Frame"));
     }

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::false_colour::LuxScale;
 use super::shadow::ShadowSettings;
 use crate::base::ids::GroupId;
 
@@ -33,6 +34,8 @@ pub enum Shading {
     Lit,
     /// The light it receives, as ideal white paint would show it: E / pi.
     IrradianceOnly,
+    /// The illuminance that it receives as a colour of [`Look::lux_scale`], with lines of equal illuminance.
+    FalseColour,
     /// Its reflectance, shown as it is, without exposure.
     Albedo,
     /// Its shading normal, 0.5 + 0.5 n, shown as it is.
@@ -48,6 +51,8 @@ pub struct Look {
     pub tone_map: ToneMap,
     /// What is shown of a surface.
     pub shading: Shading,
+    /// Which illuminance has which false colour.
+    pub lux_scale: LuxScale,
     /// Factor on direct irradiance.
     pub direct: f32,
     /// Direct light comes from the lights themselves, with these shadows; none: it comes from the vertices, as baked.
@@ -74,6 +79,7 @@ impl Default for Look {
             exposure: Exposure::Auto,
             tone_map: ToneMap::Neutral,
             shading: Shading::Lit,
+            lux_scale: LuxScale::default(),
             direct: 1.0,
             shadows: None,
             indirect: 1.0,
@@ -91,7 +97,7 @@ impl Look {
     #[must_use]
     pub fn fixed_exposure(&self) -> Option<f32> {
         match (self.shading, self.exposure) {
-            (Shading::Albedo | Shading::Normals, _) => Some(1.0),
+            (Shading::FalseColour | Shading::Albedo | Shading::Normals, _) => Some(1.0),
             (_, Exposure::Ev(ev)) => Some(ev.exp2()),
             (_, Exposure::Auto) => None,
         }
@@ -108,7 +114,7 @@ impl Look {
     pub fn tone_map_in_force(&self) -> ToneMap {
         match self.shading {
             Shading::Lit | Shading::IrradianceOnly => self.tone_map,
-            Shading::Albedo | Shading::Normals => ToneMap::Linear,
+            Shading::FalseColour | Shading::Albedo | Shading::Normals => ToneMap::Linear,
         }
     }
 }

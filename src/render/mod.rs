@@ -7,8 +7,10 @@
 
 pub mod compare;
 pub mod develop;
+pub mod false_colour;
 pub mod frame;
 pub mod look;
+pub mod overlay;
 pub mod picture;
 pub mod shadow;
 pub mod view;
@@ -20,8 +22,10 @@ mod tonemap;
 
 pub use compare::{Difference, Raster, compare};
 pub use develop::develop;
+pub use false_colour::{LuxScale, turbo};
 pub use frame::Renderer;
 pub use look::{Exposure, Look, Shading, ToneMap};
+pub use overlay::{Mark, Overlay, OverlayPass};
 pub use picture::{FileKind, Picture, picture, picture_in_light, picture_of, save_display};
 pub use shadow::{ShadowScene, ShadowSettings, ShadowTechnique};
 pub use view::View;

@@ -98,7 +98,7 @@ pub struct Image {
     pub rgba: Vec<u8>,
     /// The encoded file; empty where it could not be read and a grey pixel stands in.
     pub encoded: Vec<u8>,
-    /// `image/png`, `image/jpeg`, ...
+    /// `image/png`, `image/jpeg`, `image/webp` or `image/ktx2`.
     pub mime_type: String,
 }
 

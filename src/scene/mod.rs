@@ -32,6 +32,8 @@ pub struct Scene {
     pub triangles: Vec<Triangle>,
     /// Placed primitives `[i]`.
     pub instances: Vec<Instance>,
+    /// The file's tree of names, so that a bake can be found one's way in; empty where there is none.
+    pub nodes: Vec<NamedNode>,
     /// Materials `[m]`.
     pub materials: Vec<Material>,
     /// Textures that material slots name.
@@ -44,6 +46,8 @@ pub struct Scene {
     pub light_groups: Vec<String>,
     /// Stored light found in the file: vertex attributes whose name begins with `_IRRADIANCE_`, one value a vertex.
     pub irradiance: Vec<VertexAttribute>,
+    /// Names of the file's material variants, one of which may have been chosen on loading.
+    pub variants: Vec<String>,
     /// Triangles of the file that have no area and were left out.
     pub dropped_triangles: usize,
     /// What the loader noticed and the user should know, one line each.
@@ -83,6 +87,17 @@ pub struct Instance {
     pub name: String,
     /// Its triangles.
     pub triangles: Range<usize>,
+}
+
+/// A node of the file, without its transform, which is applied on loading.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NamedNode {
+    /// Its name; may be empty.
+    pub name: String,
+    /// The node above it, which comes before it in [`Scene::nodes`].
+    pub parent: Option<usize>,
+    /// What it shows, as a range of [`Scene::instances`].
+    pub instances: Range<usize>,
 }
 
 /// One vector a vertex under a glTF attribute name.

@@ -10,8 +10,8 @@ use winit::event_loop::{ActiveEventLoop, DeviceEvents, EventLoop, EventLoopProxy
 use winit::window::{Window, WindowId};
 
 use super::ViewerOptions;
-use super::bake_worker::News;
 use super::walkthrough::Walkthrough;
+use super::worker::News;
 
 /// Size of a new window, points.
 const SIZE: LogicalSize<f64> = LogicalSize::new(1280.0, 720.0);

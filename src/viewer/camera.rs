@@ -69,6 +69,28 @@ impl Eye {
         self.pitch = (self.pitch + up).clamp(-MAX_PITCH, MAX_PITCH);
     }
 
+    /// Unit vector through a point of the picture, given as -1..1 to the right and up.
+    #[must_use]
+    pub fn direction(&self, at: [f32; 2], aspect: f32) -> Vec3 {
+        let half = (0.5 * self.fov_y).tan();
+        (self.rotation() * Vec3::new(at[0] * half * aspect, at[1] * half, -1.0)).normalize()
+    }
+
+    /// Where a point is seen in the picture, -1..1 to the right and up; none behind the eye.
+    #[must_use]
+    pub fn place_of(&self, point: Vec3, aspect: f32) -> Option<[f32; 2]> {
+        let seen = self.rotation().inverse() * (point - self.position);
+        let half = -seen.z * (0.5 * self.fov_y).tan();
+        (half > 0.0).then(|| [seen.x / (half * aspect), seen.y / half])
+    }
+
+    /// Turns about `pivot` as [`Eye::turn`] turns about the eye: the pivot stays where it is in the picture.
+    pub fn orbit(&mut self, pivot: Vec3, left: f32, up: f32) {
+        let arm = self.rotation().inverse() * (self.position - pivot);
+        self.turn(left, up);
+        self.position = pivot + self.rotation() * arm;
+    }
+
     /// Moves back along the line of sight until the whole box is in view.
     pub fn frame(&mut self, (low, high): (Vec3, Vec3), aspect: f32) {
         let radius = (0.5 * (high - low).length()).max(1e-3);
@@ -160,6 +182,27 @@ mod tests {
         eye.turn(0.0, 10.0);
         assert!(eye.forward().y < 1.0 && eye.forward().y > 0.999);
         assert!(eye.right().y.abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_direction_leads_back_to_its_place_in_the_picture() {
+        let eye = Eye::looking_along(Vec3::new(1.0, 2.0, 3.0), Vec3::new(0.3, -0.4, 0.8));
+        for at in [[0.0, 0.0], [0.7, -0.9], [-1.0, 1.0]] {
+            let place = eye.place_of(eye.position + 4.0 * eye.direction(at, 1.6), 1.6).expect("before the eye");
+            assert!((place[0] - at[0]).abs() < 1e-4 && (place[1] - at[1]).abs() < 1e-4, "{at:?} {place:?}");
+        }
+        assert_eq!(eye.place_of(eye.position - eye.forward(), 1.6), None);
+    }
+
+    #[test]
+    fn orbiting_keeps_the_distance_and_the_pivot_in_its_place() {
+        let mut eye = Eye::looking_along(Vec3::new(0.0, 1.5, 4.0), Vec3::new(0.2, -0.1, -1.0));
+        let pivot = Vec3::new(0.5, 0.8, -1.0);
+        let (distance, place) = (eye.position.distance(pivot), eye.place_of(pivot, 1.5).expect("seen"));
+        eye.orbit(pivot, 1.1, -0.4);
+        let after = eye.place_of(pivot, 1.5).expect("still seen");
+        assert!((eye.position.distance(pivot) - distance).abs() < 1e-4);
+        assert!((place[0] - after[0]).abs() < 1e-4 && (place[1] - after[1]).abs() < 1e-4, "{place:?} {after:?}");
     }
 
     #[test]

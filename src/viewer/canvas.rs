@@ -7,8 +7,9 @@ use std::sync::Arc;
 
 use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
 
+use super::still::Exposed;
 use crate::gpu::{Gpu, SceneBuffers};
-use crate::render::{Look, Renderer, ShadowScene, View};
+use crate::render::{Look, Overlay, OverlayPass, Renderer, ShadowScene, View};
 
 /// Samples a pixel of a fine picture.
 pub const SAMPLES: u32 = 4;
@@ -22,6 +23,8 @@ pub enum Detail {
     Plain,
     /// Several samples a pixel.
     Fine,
+    /// Traced by rays.
+    Traced,
 }
 
 /// Everything that a picture depends on.
@@ -37,6 +40,8 @@ pub struct Sight {
     pub view: View,
     /// How it is shown.
     pub look: Look,
+    /// What is drawn over it.
+    pub overlay: Option<Arc<Overlay>>,
     /// Pixels across and down.
     pub size: [u32; 2],
 }
@@ -57,6 +62,7 @@ pub struct Canvas {
     format: wgpu::TextureFormat,
     fine: Renderer,
     quick: Option<Quick>,
+    overlay: OverlayPass,
     picture: Option<Picture>,
 }
 
@@ -84,7 +90,13 @@ impl Canvas {
             blitter: TextureBlitterBuilder::new(&gpu.device, format).sample_type(wgpu::FilterMode::Linear).build(),
             target: None,
         };
-        Self { format, fine: Renderer::new(gpu, format, SAMPLES), quick: gpu.is_software().then(quick), picture: None }
+        Self {
+            format,
+            fine: Renderer::new(gpu, format, SAMPLES),
+            quick: gpu.is_software().then(quick),
+            overlay: OverlayPass::new(gpu, format),
+            picture: None,
+        }
     }
 
     /// What `sight` shows anew.
@@ -94,6 +106,7 @@ impl Canvas {
         let is_same_sight = Arc::ptr_eq(&last.scene, &sight.scene)
             && last.view == sight.view
             && last.look == sight.look
+            && last.overlay.as_ref().map(Arc::as_ptr) == sight.overlay.as_ref().map(Arc::as_ptr)
             && last.size == sight.size;
         match (is_same_sight, last.light == sight.light) {
             (true, true) => Change::None,
@@ -139,7 +152,38 @@ impl Canvas {
             (Some(quick), Detail::Plain) => quick.renderer.draw(gpu, encoder, &target, *size, scene, view, look),
             _ => self.fine.draw(gpu, encoder, &target, *size, scene, view, look),
         }
+        if let Some(overlay) = &sight.overlay {
+            self.overlay.draw(gpu, encoder, &target, *size, scene, view, look, overlay);
+        }
         self.picture = Some(Picture { sight, detail, texture });
+    }
+
+    /// The next picture is drawn whatever has changed.
+    pub fn forget(&mut self) {
+        self.picture = None;
+    }
+
+    /// Lays a traced picture over the last one; false where it has another size by now.
+    pub fn lay(&mut self, gpu: &Gpu, exposed: &Exposed) -> bool {
+        let Some(picture) = self.picture.as_mut().filter(|picture| picture.sight.size == exposed.size) else {
+            return false;
+        };
+        let is_bgra = matches!(self.format, wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Bgra8UnormSrgb);
+        let bytes: Vec<u8> = if is_bgra {
+            exposed.display.as_chunks::<4>().0.iter().flat_map(|&[r, g, b, a]| [b, g, r, a]).collect()
+        } else {
+            exposed.display.clone()
+        };
+        let [width, height] = exposed.size;
+        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
+        gpu.queue.write_texture(
+            picture.texture.as_image_copy(),
+            &bytes,
+            layout,
+            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
+        );
+        picture.detail = Detail::Traced;
+        true
     }
 
     fn cast_shadows(&mut self, shadows: &Arc<ShadowScene>) {
@@ -191,7 +235,8 @@ fn texture(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Text
         format,
         usage: wgpu::TextureUsages::RENDER_ATTACHMENT
             | wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::COPY_SRC,
+            | wgpu::TextureUsages::COPY_SRC
+            | wgpu::TextureUsages::COPY_DST,
         view_formats: &[],
     })
 }

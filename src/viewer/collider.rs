@@ -18,7 +18,20 @@ pub struct Collider {
     tree: Bvh2,
     /// In the order of the tree's leaves.
     triangles: Vec<Triangle>,
+    /// Their numbers in the scene, in the same order.
+    numbers: Vec<TriangleId>,
     bounds: (Vec3, Vec3),
+}
+
+/// What is seen in a direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pick {
+    /// Point of the surface, metres.
+    pub point: Vec3,
+    /// Unit normal of the side that is seen.
+    pub normal: Vec3,
+    /// The triangle in the scene.
+    pub triangle: TriangleId,
 }
 
 /// A ball that touches something.
@@ -45,16 +58,19 @@ impl Collider {
     /// Cost: about a microsecond a triangle.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
-        let solid: Vec<Triangle> = (0..scene.triangles.len())
-            .filter(|&t| !scene.triangles[t].is_back_side)
-            .map(|t| {
-                let [v0, v1, v2] = scene.corners(TriangleId::new(t)).map(Vec3A::from);
+        let fronts: Vec<TriangleId> =
+            (0..scene.triangles.len()).filter(|&t| !scene.triangles[t].is_back_side).map(TriangleId::new).collect();
+        let solid: Vec<Triangle> = fronts
+            .iter()
+            .map(|&t| {
+                let [v0, v1, v2] = scene.corners(t).map(Vec3A::from);
                 Triangle { v0, v1, v2 }
             })
             .collect();
         let tree = build_bvh2(&solid, BvhBuildParams::medium_build(), &mut std::time::Duration::default());
         let triangles = tree.primitive_indices.iter().map(|&t| solid[t as usize]).collect();
-        Self { tree, triangles, bounds: scene.bounds() }
+        let numbers = tree.primitive_indices.iter().map(|&t| fronts[t as usize]).collect();
+        Self { tree, triangles, numbers, bounds: scene.bounds() }
     }
 
     /// Smallest box round the scene.
@@ -75,19 +91,37 @@ impl Collider {
         self.vertical(from, Vec3A::Y, height)
     }
 
+    /// The surface that is seen from `from` along `direction` (any length); `sees_back_of` says whose backs stop the sight.
+    #[must_use]
+    pub fn pick(&self, from: Vec3, direction: Vec3, sees_back_of: impl Fn(TriangleId) -> bool) -> Option<Pick> {
+        let direction = direction.try_normalize()?;
+        let hit = self.nearest(from, direction.into(), f32::MAX, |at| {
+            let is_front = Vec3::from(self.triangles[at].compute_normal()).dot(direction) < 0.0;
+            is_front || sees_back_of(self.numbers[at])
+        })?;
+        let at = hit.primitive_id as usize;
+        let normal = Vec3::from(self.triangles[at].compute_normal()).normalize_or_zero();
+        let seen = if normal.dot(direction) > 0.0 { -normal } else { normal };
+        Some(Pick { point: from + direction * hit.t, normal: seen, triangle: self.numbers[at] })
+    }
+
     fn vertical(&self, from: Vec3, direction: Vec3A, length: f32) -> Option<Surface> {
+        let hit = self.nearest(from, direction, length, |_| true)?;
+        let normal = Vec3::from(self.triangles[hit.primitive_id as usize].compute_normal());
+        let up = if normal.y < 0.0 { -normal } else { normal };
+        Some(Surface { height: from.y + direction.y * hit.t, normal: up })
+    }
+
+    fn nearest(&self, from: Vec3, direction: Vec3A, length: f32, stops: impl Fn(usize) -> bool) -> Option<RayHit> {
         if self.triangles.is_empty() {
             return None;
         }
         let mut hit = RayHit::none();
         let ray = Ray::new(from.into(), direction, 0.0, length);
-        self.tree.ray_traverse(ray, &mut hit, |ray, at| self.triangles[at].intersect(ray));
-        if hit.t >= length {
-            return None;
-        }
-        let normal = Vec3::from(self.triangles[hit.primitive_id as usize].compute_normal());
-        let up = if normal.y < 0.0 { -normal } else { normal };
-        Some(Surface { height: from.y + direction.y * hit.t, normal: up })
+        self.tree.ray_traverse(ray, &mut hit, |ray, at| {
+            if stops(at) { self.triangles[at].intersect(ray) } else { f32::INFINITY }
+        });
+        (hit.t < length).then_some(hit)
     }
 
     /// Calls `touch` with each surface point nearest to the centre of a ball that the ball reaches.
@@ -153,6 +187,18 @@ mod tests {
                 assert!(nearest.distance(p) <= sample.distance(p) + 1e-4, "{p}: {nearest} but {sample}");
             }
         }
+    }
+
+    #[test]
+    fn a_pick_sees_through_backs_unless_they_are_solid() {
+        let scene = crate::scene::builtin::cornell();
+        let collider = Collider::new(&scene);
+        // From outside, behind the back wall, towards the open front.
+        let (from, direction) = (Vec3::new(2.7, 4.5, 12.0), Vec3::NEG_Z);
+        let through = collider.pick(from, direction, |_| false);
+        let stopped = collider.pick(from, direction, |_| true).expect("the wall");
+        assert!(stopped.point.z > 5.0 && (stopped.normal - Vec3::Z).length() < 1e-5, "{stopped:?}");
+        assert_ne!(through.map(|pick| pick.triangle), Some(stopped.triangle));
     }
 
     #[test]

@@ -1,16 +1,23 @@
 //! What keys and panels ask for, and how it is done.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use glam::Vec3;
 use winit::window::Fullscreen;
 
-use super::bake_worker::Source;
 use super::camera::Eye;
-use super::panels::{Command, Notice, Trouble};
-use super::screenshot;
-use super::session::Place;
+use super::panels::{Command, Notice, OpenDialog, Trouble};
+use super::place::Place;
 use super::walkthrough::Walkthrough;
+use super::worker::Source;
 use crate::bake::BakeSettings;
+use crate::base::ids::TriangleId;
+use crate::scene::Scene;
+
+/// One notch of the wheel changes the field of view by this factor.
+const ZOOM_NOTCH: f32 = 1.08;
+/// Narrowest and widest field of view, degrees.
+const FOV_RANGE: [f32; 2] = [10.0, 120.0];
 
 impl Walkthrough {
     /// Opens a file that was dropped on the window.
@@ -21,13 +28,20 @@ impl Walkthrough {
         self.report(outcome);
     }
 
+    /// Reads the open file again.
+    pub(super) fn reload(&mut self, why: &str) {
+        self.panels.notice = Some(Notice::new(why));
+        let outcome = self.session.reload(self.next_settings());
+        self.report(outcome);
+    }
+
     /// What the command line says, unless another preset has been picked since.
-    fn next_settings(&self) -> BakeSettings {
+    pub(super) fn next_settings(&self) -> BakeSettings {
         let is_as_given = self.panels.quality == self.settings.quality;
         if is_as_given { self.settings } else { BakeSettings::preset(self.panels.quality) }
     }
 
-    fn report(&mut self, outcome: anyhow::Result<()>) {
+    pub(super) fn report(&mut self, outcome: anyhow::Result<()>) {
         if let Err(error) = outcome {
             self.panels.trouble = Some(Trouble { title: "This did not work".to_owned(), text: format!("{error:#}") });
         }
@@ -48,11 +62,13 @@ impl Walkthrough {
             Command::ToggleDirect => light.direct = !light.direct,
             Command::ToggleIndirect => light.indirect = !light.indirect,
             Command::ToggleHelp => self.panels.shows_help = !self.panels.shows_help,
-            Command::TogglePanels => self.panels.is_open = !self.panels.is_open,
+            Command::TogglePanels => self.panels.memory.is_open = !self.panels.memory.is_open,
+            Command::ToggleStills => self.toggle_stills(),
             Command::ToggleFullScreen => self.toggle_full_screen(),
             Command::Screenshot => self.take_picture(),
             Command::ToggleBake if self.session.worker().is_some() => self.cancel(),
             Command::Bake | Command::ToggleBake => {
+                self.forget();
                 let outcome = self.session.bake(self.next_settings());
                 self.report(outcome);
             }
@@ -61,9 +77,27 @@ impl Walkthrough {
                 let outcome = self.session.open(Source::default(), self.next_settings());
                 self.report(outcome);
             }
-            Command::Jump(_) | Command::StepCamera(_) | Command::FrameAll | Command::ToggleWalking => {
-                self.travel(command);
-            }
+            Command::Open(path) => self.open(path),
+            Command::ChooseFile => self.choose_file(),
+            Command::Reload => self.reload("Reading the file again"),
+            Command::FitLuxScale => self.fit_lux_scale(),
+            Command::Jump(_)
+            | Command::StepCamera(_)
+            | Command::FrameAll
+            | Command::FrameInstance(_)
+            | Command::SetFieldOfView(_)
+            | Command::ToggleWalking => self.travel(command),
+            Command::Recall(number) => self.recall(number),
+            Command::Bookmark(number) => self.bookmark(number),
+            Command::Take(_)
+            | Command::Pin
+            | Command::ClearReadings
+            | Command::WriteReadings
+            | Command::ForgetSight
+            | Command::ToggleRecording
+            | Command::SaveBake
+            | Command::WritePicture
+            | Command::CancelPicture => self.inquire(command),
         }
         self.pacer.want();
     }
@@ -73,6 +107,12 @@ impl Walkthrough {
         let Some(Place { scene, collider, traveller, camera, .. }) = &mut self.session.place else { return };
         match command {
             Command::FrameAll => traveller.frame_all(collider, width as f32 / height as f32),
+            Command::FrameInstance(index) => {
+                if let Some(bounds) = bounds_of(scene, index) {
+                    traveller.frame(bounds, width as f32 / height as f32);
+                }
+            }
+            Command::SetFieldOfView(degrees) => traveller.eye.fov_y = degrees.to_radians(),
             Command::ToggleWalking if traveller.toggle_walking(collider).is_err() => {
                 self.panels.notice = Some(Notice::new("No floor below to walk on: still flying"));
             }
@@ -105,16 +145,60 @@ impl Walkthrough {
         self.window.set_fullscreen((!is_full).then_some(Fullscreen::Borderless(None)));
     }
 
-    fn take_picture(&mut self) {
-        let size = self.screen.size();
-        let Some(place) = &self.session.place else { return };
-        let camera = place.traveller.eye.camera();
-        let look = self.panels.light.look(place.is_lit);
-        match screenshot::take(&self.screen.gpu, place, &camera, size, &look, Path::new(".")) {
-            Ok(path) => self.panels.notice = Some(Notice::new(format!("Written: {}", path.display()))),
-            Err(error) => self.report(Err(error)),
+    fn toggle_stills(&mut self) {
+        let traces = &mut self.panels.memory.traces_stills;
+        *traces = !*traces;
+        let text = if *traces { "A still camera traces rays" } else { "No rays for a still camera" };
+        self.panels.notice = Some(Notice::new(text));
+    }
+
+    fn choose_file(&mut self) {
+        let last = self.panels.memory.recent.first().and_then(|path| path.parent().map(PathBuf::from));
+        let folder = last.filter(|folder| folder.is_dir()).unwrap_or_else(|| PathBuf::from("."));
+        self.look.release(&self.window);
+        self.panels.dialog = Some(OpenDialog::new(&folder));
+    }
+
+    fn fit_lux_scale(&mut self) {
+        if let Some(place) = &self.session.place {
+            self.panels.light.lux_scale = place.fitted_scale(self.panels.light.lux_scale);
         }
     }
+
+    fn recall(&mut self, number: u8) {
+        let name = self.session.name();
+        let Some(Place { collider, traveller, .. }) = &mut self.session.place else { return };
+        let text = match self.panels.memory.marked(&name, number) {
+            Some(eye) => {
+                traveller.jump(eye, collider);
+                format!("Bookmark {number}")
+            }
+            None => format!("No bookmark {number} yet: Ctrl {number} sets it"),
+        };
+        self.panels.notice = Some(Notice::new(text));
+    }
+
+    fn bookmark(&mut self, number: u8) {
+        let name = self.session.name();
+        let Some(place) = &self.session.place else { return };
+        self.panels.memory.mark(&name, number, &place.traveller.eye);
+        self.panels.notice = Some(Notice::new(format!("This view is bookmark {number}")));
+    }
+
+    /// Narrows the view by notches of the wheel.
+    pub(super) fn zoom(&mut self, notches: f32) {
+        if let Some(place) = &mut self.session.place {
+            let angle = &mut place.traveller.eye.fov_y;
+            *angle = (*angle * ZOOM_NOTCH.powf(-notches)).clamp(FOV_RANGE[0].to_radians(), FOV_RANGE[1].to_radians());
+        }
+    }
+}
+
+/// Box round an instance.
+fn bounds_of(scene: &Scene, index: usize) -> Option<(Vec3, Vec3)> {
+    let triangles = scene.instances.get(index)?.triangles.clone();
+    let corners = || triangles.clone().flat_map(|t| scene.corners(TriangleId::new(t)));
+    Some((corners().reduce(Vec3::min)?, corners().reduce(Vec3::max)?))
 }
 
 /// `index` moved on by `steps` in a ring of `count`.

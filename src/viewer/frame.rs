@@ -1,19 +1,14 @@
 //! One frame, and when the next one is due.
 
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use winit::event_loop::ControlFlow;
 
-use super::bake_worker::Worker;
-use super::canvas::{Change, Detail, Sight};
-use super::panels::{Command, Facts};
+use super::errand::Kind;
+use super::panels::{Command, Facts, MeterFacts, Tab};
 use super::screen::{PanelShapes, Shown};
 use super::walkthrough::Walkthrough;
-use crate::render::View;
-
-/// A sketch is drawn out when nothing has moved for this long.
-const SETTLE_TIME: Duration = Duration::from_millis(250);
+use super::worker::Worker;
 
 /// Renewed light is wanted this many frame times after the last, so that showing it costs the bake little.
 const LIGHT_INTERVAL: f32 = 6.0;
@@ -23,6 +18,7 @@ impl Walkthrough {
     pub(super) fn draw_frame(&mut self) {
         // The bake rests until the frame is on the screen.
         let held = self.session.worker().map(Worker::hold);
+        self.errands.hold();
         let is_baking = held.is_some();
         let seconds = self.pacer.begin();
 
@@ -31,9 +27,10 @@ impl Walkthrough {
         // Lay out the panels; what they ask for changes the next frame.
         let (panels, commands) = self.lay_out();
         // The picture and the panels on top.
-        let shown = self.show(&panels);
+        let shown = self.show(panels);
 
         drop(held);
+        self.errands.go_on();
         self.pacer.end(is_baking);
         if is_moving || shown == Shown::Retry || !commands.is_empty() {
             self.pacer.want();
@@ -44,6 +41,7 @@ impl Walkthrough {
         for command in commands {
             self.perform(command);
         }
+        self.remember_changes();
     }
 
     /// Moves the eye; whether it goes on moving.
@@ -59,17 +57,42 @@ impl Walkthrough {
 
     fn lay_out(&mut self) -> (PanelShapes, Vec<Command>) {
         let place = self.session.place.as_ref();
+        let next_settings = self.next_settings();
+        // The area of a large scene is not summed for a page that nobody sees.
+        let baked_place = place.filter(|_| self.panels.memory.tab == Tab::Solution);
+        let curve = self.session.curve();
+        let solved = place.and_then(|place| place.solved.as_deref());
+        let sees = |point| place.is_some_and(|place| place.sees(point));
         let facts = Facts {
             scene: place.map(|place| &*place.scene),
             light: self.session.light_state(),
             num_elements: self.session.num_elements(),
-            position: place.map_or(glam::Vec3::ZERO, |place| place.traveller.eye.position),
+            eye: place.map(|place| place.traveller.eye),
+            picture_size: self.picture_size,
             is_walking: place.is_some_and(|place| place.traveller.is_walking()),
             pace: place.map_or(0.0, |place| place.traveller.pace()),
             is_captured: self.look.is_captured(),
             frame_rate: self.pacer.frame_rate(),
             frame_seconds: self.pacer.frame_seconds(),
             adapter: &self.adapter,
+            next_bake: baked_place.map(|place| (next_settings, place.mesh_sizes(&next_settings))),
+            curve: &curve,
+            report: solved.and_then(|solved| solved.report.as_ref()),
+            advice: place.map_or(&[], |place| &place.advice),
+            is_solved: solved.is_some(),
+            meter: MeterFacts {
+                last: self.inquiry.last.as_ref(),
+                pins: &self.inquiry.pins,
+                grid: self.inquiry.grid.as_ref(),
+                is_busy: self.errands.is_out(Kind::Measure),
+            },
+            sight: self.inquiry.sight.as_ref(),
+            recording: self.inquiry.recording.as_deref(),
+            is_recording: self.errands.is_out(Kind::Record),
+            is_writing: self.errands.is_out(Kind::Write),
+            num_rays: self.inquiry.num_rays,
+            bookmarks: self.panels.memory.bookmarks_of(&self.session.name()),
+            sees: &sees,
         };
         let (mut commands, mut free) = (Vec::new(), egui::Rect::ZERO);
         let shapes = self.gui.run(&self.window, |ui| (commands, free) = self.panels.ui(ui, &facts));
@@ -77,50 +100,15 @@ impl Walkthrough {
         (shapes, commands)
     }
 
-    fn show(&mut self, panels: &PanelShapes) -> Shown {
+    fn show(&mut self, panels: PanelShapes) -> Shown {
         let picture = self.next_picture();
         self.screen.show(&self.window, picture, panels)
-    }
-
-    /// What has to be drawn anew, and how finely; none where the last picture is still right.
-    fn next_picture(&mut self) -> Option<(Sight, Detail)> {
-        let place = self.session.place.as_ref()?;
-        let size = self.picture_size;
-        let sight = Sight {
-            scene: Arc::clone(&place.buffers),
-            shadows: Arc::clone(&place.shadows),
-            light: place.light_version,
-            view: View::from_camera(&place.traveller.eye.camera(), size[0] as f32 / size[1] as f32),
-            look: self.panels.light.look(place.is_lit),
-            size,
-        };
-        let canvas = &self.screen.canvas;
-        let at_rest = if canvas.is_slow() && self.session.worker().is_some() { Detail::Plain } else { Detail::Fine };
-        let detail = match canvas.change(&sight) {
-            Change::Sight if canvas.is_slow() => {
-                self.settle = Some(Instant::now() + SETTLE_TIME);
-                Detail::Sketch
-            }
-            Change::Sight => Detail::Fine,
-            // Light alone does not make a picture coarse.
-            Change::Light if self.settle.is_some() => Detail::Sketch,
-            Change::Light => at_rest,
-            Change::None => {
-                let is_settled = self.settle.is_none_or(|settle| settle <= Instant::now());
-                if !is_settled || canvas.detail() >= Some(at_rest) {
-                    return None;
-                }
-                self.settle = None;
-                at_rest
-            }
-        };
-        Some((sight, detail))
     }
 
     /// Asks for the next frame where one is due, else says until when nothing needs to happen.
     pub fn plan(&mut self) -> ControlFlow {
         let now = Instant::now();
-        let wake = [self.gui.wake(), self.settle].into_iter().flatten().min();
+        let wake = [self.gui.wake(), self.settle, self.still_due].into_iter().flatten().min();
         if wake.is_some_and(|wake| wake <= now) {
             self.gui.clear_wake();
             self.pacer.want();

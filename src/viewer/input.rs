@@ -42,6 +42,12 @@ impl Keys {
         self.any(&[KeyCode::ControlLeft, KeyCode::ControlRight])
     }
 
+    /// Either Alt key is down.
+    #[must_use]
+    pub fn is_alt_down(&self) -> bool {
+        self.any(&[KeyCode::AltLeft, KeyCode::AltRight])
+    }
+
     /// Where the held keys want to go.
     #[must_use]
     pub fn intent(&self) -> Intent {
@@ -105,7 +111,7 @@ impl MouseLook {
     pub fn press(&mut self, button: MouseButton, window: &Window) {
         if self.is_captured() {
             self.release(window);
-        } else if matches!(button, MouseButton::Left | MouseButton::Right) && !self.is_active() {
+        } else if matches!(button, MouseButton::Left | MouseButton::Right | MouseButton::Middle) && !self.is_active() {
             self.state = State::Dragging { button, since: Instant::now(), travelled: 0.0 };
             self.begin(window);
             // Only some systems can lock; the others go on reporting motion while a button is held.
@@ -113,21 +119,32 @@ impl MouseLook {
         }
     }
 
-    /// A button goes up: a drag ends, a click of the left button captures the mouse.
-    pub fn lift(&mut self, button: MouseButton, window: &Window) {
-        let State::Dragging { button: dragging, since, travelled } = self.state else { return };
+    /// A button goes up and a drag ends; where the left button was clicked, if it was: pixels from the window's corner.
+    pub fn lift(&mut self, button: MouseButton, window: &Window) -> Option<[f64; 2]> {
+        let State::Dragging { button: dragging, since, travelled } = self.state else { return None };
         if dragging != button {
-            return;
+            return None;
         }
+        let at = self.start.or(self.pointer);
         self.release(window);
-        if button == MouseButton::Left && travelled < CLICK_REACH && since.elapsed() < CLICK_TIME {
-            self.state = State::Captured;
-            self.begin(window);
-            let locked = window.set_cursor_grab(CursorGrabMode::Locked);
-            if locked.or_else(|_| window.set_cursor_grab(CursorGrabMode::Confined)).is_err() {
-                log::debug!("the pointer cannot be kept in the window");
-            }
+        let is_click = button == MouseButton::Left && travelled < CLICK_REACH && since.elapsed() < CLICK_TIME;
+        at.filter(|_| is_click).map(|at| [at.x, at.y])
+    }
+
+    /// Keeps the mouse until Escape or a press.
+    pub fn capture(&mut self, window: &Window) {
+        self.state = State::Captured;
+        self.begin(window);
+        let locked = window.set_cursor_grab(CursorGrabMode::Locked);
+        if locked.or_else(|_| window.set_cursor_grab(CursorGrabMode::Confined)).is_err() {
+            log::debug!("the pointer cannot be kept in the window");
         }
+    }
+
+    /// Where the pointer is, pixels from the window's corner.
+    #[must_use]
+    pub fn pointer(&self) -> Option<[f64; 2]> {
+        self.pointer.map(|at| [at.x, at.y])
     }
 
     /// Gives the mouse back; whether it was taken.

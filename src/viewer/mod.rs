@@ -2,29 +2,44 @@
 //!
 //! [`app`] is winit's side, [`walkthrough`] the open window: events become movement ([`input`], [`travel`], [`walk`]) and
 //! [`panels::Command`]s ([`shortcuts`], `commands`); `frame` is the recipe of a frame. Loading and baking run in a
-//! thread ([`bake_worker`]); [`session`] holds what they bring. Deliberately absent: any light of its own; everything
-//! that is drawn comes from [`crate::render`].
+//! thread ([`worker`]); [`session`] holds what they bring, [`place`] the open scene, [`solved`] its light. What a click
+//! asks ([`inquiry`]: a reading of the [`meter`], a [`patch_sight`], a [`replay`], a [`still`]) is an [`errand`].
+//! Deliberately absent: any light of its own; everything that is drawn comes from [`crate::render`].
 
 pub mod app;
-pub mod bake_worker;
 pub mod camera;
 pub mod collider;
+pub mod errand;
 pub mod input;
+pub mod inquiry;
+pub mod marks;
+pub mod memory;
+pub mod meter;
+pub mod output;
 pub mod pacing;
 pub mod panels;
+pub mod patch_sight;
+pub mod place;
+pub mod replay;
 pub mod session;
 pub mod settings;
 pub mod shortcuts;
+pub mod solved;
+pub mod still;
 pub mod travel;
 pub mod walk;
 pub mod walkthrough;
+pub mod worker;
 
 mod canvas;
 mod commands;
+mod default_sky;
+mod file_watch;
 mod frame;
 mod gui;
+mod marks_cache;
+mod picture;
 mod screen;
-mod screenshot;
 
 use std::path::PathBuf;
 

@@ -79,9 +79,18 @@ impl Screen {
     }
 
     /// Draws a frame and shows it: a new picture where one is given, else the last one, and the panels on top.
-    pub fn show(&mut self, window: &Window, picture: Option<(Sight, Detail)>, panels: &PanelShapes) -> Shown {
-        // Even where the frame fails: panels say only once what is new.
+    pub fn show(&mut self, window: &Window, picture: Option<(Sight, Detail)>, mut panels: PanelShapes) -> Shown {
+        // Even where the frame fails: panels say only once what is new and what is gone.
         self.update_textures(&panels.textures);
+        let shown = self.show_updated(window, picture, &panels);
+        for id in &panels.textures.free {
+            self.painter.free_texture(id);
+        }
+        panels.textures.clear();
+        shown
+    }
+
+    fn show_updated(&mut self, window: &Window, picture: Option<(Sight, Detail)>, panels: &PanelShapes) -> Shown {
         let frame = match self.surface.get_current_texture() {
             wgpu::CurrentSurfaceTexture::Success(frame) | wgpu::CurrentSurfaceTexture::Suboptimal(frame) => frame,
             wgpu::CurrentSurfaceTexture::Timeout | wgpu::CurrentSurfaceTexture::Occluded => return Shown::No,
@@ -119,9 +128,6 @@ impl Screen {
         drop(pass);
         uploads.push(encoder.finish());
         queue.submit(uploads);
-        for id in &panels.textures.free {
-            self.painter.free_texture(id);
-        }
     }
 
     fn update_textures(&mut self, textures: &egui::TexturesDelta) {

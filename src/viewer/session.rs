@@ -1,41 +1,20 @@
-//! What is open: a scene, its light on the device, the traveller in it, and the worker that loads and bakes it.
+//! What is open and what is being done about it: the place, and the worker that loads and bakes it.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use glam::Vec3;
 use winit::event_loop::EventLoopProxy;
 
-use super::bake_worker::{Event, Job, Loaded, News, Source, Worker};
 use super::camera::Eye;
-use super::collider::Collider;
+use super::file_watch::FileWatch;
 use super::panels::LightState;
-use super::travel::Traveller;
-use crate::bake::{Bake, BakeSettings};
+use super::place::Place;
+use super::solved::Solved;
+use super::worker::{Event, Job, Loaded, Mesh, News, Source, Worker};
+use crate::bake::BakeSettings;
 use crate::base::progress::Stage;
-use crate::gpu::{Gpu, SceneBuffers};
-use crate::render::ShadowScene;
-use crate::scene::Scene;
-
-/// An opened scene.
-pub struct Place {
-    /// As the file has it.
-    pub scene: Arc<Scene>,
-    /// What the walker touches.
-    pub collider: Collider,
-    /// The eye.
-    pub traveller: Traveller,
-    /// On the device.
-    pub buffers: Arc<SceneBuffers>,
-    /// Its casters and lights.
-    pub shadows: Arc<ShadowScene>,
-    /// Counts how often their light was renewed.
-    pub light_version: u32,
-    /// There is light to see by.
-    pub is_lit: bool,
-    /// Camera of the file that was visited last.
-    pub camera: usize,
-}
+use crate::gpu::Gpu;
 
 /// What is open, and what is being done about it.
 pub struct Session {
@@ -43,15 +22,21 @@ pub struct Session {
     window: EventLoopProxy<News>,
     /// None until the first scene is read.
     pub place: Option<Place>,
+    /// Where the open scene, or the one that is being read, comes from.
+    source: Source,
+    /// From where a scene that is read again is seen.
+    kept_eye: Option<Eye>,
+    watch: Option<FileWatch>,
     worker: Option<Worker>,
     /// Ended or asked to end; dropped when they have.
     retired: Vec<Worker>,
     job: u32,
     began: Instant,
     /// A mesh that waits for its first light before it is shown.
-    coming: Option<(Arc<SceneBuffers>, Arc<ShadowScene>)>,
+    coming: Option<Mesh>,
     num_elements: Option<usize>,
     outcome: LightState,
+    curve: Vec<[f32; 2]>,
 }
 
 /// What the user should hear about.
@@ -74,6 +59,9 @@ impl Session {
             gpu,
             window,
             place: None,
+            source: Source::default(),
+            kept_eye: None,
+            watch: None,
             worker: None,
             retired: Vec::new(),
             job: 0,
@@ -81,6 +69,7 @@ impl Session {
             coming: None,
             num_elements: None,
             outcome: LightState::Nothing,
+            curve: Vec::new(),
         }
     }
 
@@ -89,7 +78,18 @@ impl Session {
     /// # Errors
     /// The system gives no thread.
     pub fn open(&mut self, source: Source, settings: BakeSettings) -> anyhow::Result<()> {
+        self.kept_eye = None;
+        self.source = source.clone();
         self.start(Job::Open(source, settings))
+    }
+
+    /// Reads the open file again and stays where one is.
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub fn reload(&mut self, settings: BakeSettings) -> anyhow::Result<()> {
+        self.kept_eye = self.place.as_ref().map(|place| place.traveller.eye);
+        self.start(Job::Open(self.source.clone(), settings))
     }
 
     /// Bakes the open scene anew; a file that is a bake stays as it is.
@@ -110,6 +110,7 @@ impl Session {
         self.job += 1;
         self.began = Instant::now();
         self.coming = None;
+        self.curve.clear();
         self.worker = Some(Worker::start(self.job, job, Arc::clone(&self.gpu), self.window.clone())?);
         Ok(())
     }
@@ -117,6 +118,7 @@ impl Session {
     fn retire(&mut self) {
         self.retired.retain(|worker| !worker.is_finished());
         if let Some(worker) = self.worker.take() {
+            self.curve = worker.curve();
             worker.cancel();
             self.retired.push(worker);
         }
@@ -126,6 +128,18 @@ impl Session {
     #[must_use]
     pub fn worker(&self) -> Option<&Worker> {
         self.worker.as_ref()
+    }
+
+    /// The number of the job that was started last: findings of others are of another scene.
+    #[must_use]
+    pub fn job(&self) -> u32 {
+        self.job
+    }
+
+    /// The name by which the open scene is opened again.
+    #[must_use]
+    pub fn name(&self) -> PathBuf {
+        self.source.name()
     }
 
     /// Where the light stands.
@@ -147,36 +161,38 @@ impl Session {
         self.num_elements
     }
 
-    /// Takes in what the worker tells.
-    pub fn hear(&mut self, news: News) -> Outcome {
-        if news.job != self.job {
-            return Outcome::Changed;
-        }
-        match news.event {
+    /// Seconds since the bake began, and share of the light that was unshot.
+    #[must_use]
+    pub fn curve(&self) -> Vec<[f32; 2]> {
+        self.worker.as_ref().map_or_else(|| self.curve.clone(), Worker::curve)
+    }
+
+    /// Takes in what the worker tells; findings of errands are taken elsewhere.
+    pub fn hear(&mut self, event: Event) -> Outcome {
+        match event {
             Event::Loaded(loaded) => self.enter(*loaded),
-            Event::Mesh { buffers, shadows, num_elements } => {
-                self.coming = Some((buffers, shadows));
-                self.num_elements = Some(num_elements);
+            Event::Mesh(mesh) => {
+                self.num_elements = Some(mesh.scene.triangles.len());
+                self.coming = Some(mesh);
                 Outcome::Changed
             }
             Event::Light => {
                 self.light_up();
                 Outcome::Changed
             }
-            Event::Progress => Outcome::Changed,
-            Event::Finished(bake) => self.finish(&bake),
+            Event::Finished(solved) => self.finish(solved),
             Event::Failed(message) => self.fail(message),
+            Event::Progress | Event::Found(..) | Event::FileChanged => Outcome::Changed,
         }
     }
 
     fn enter(&mut self, loaded: Loaded) -> Outcome {
-        let Loaded { scene, collider, buffers, shadows, is_baked } = loaded;
-        let traveller = first_view(&scene, &collider);
-        self.num_elements = is_baked.then_some(scene.triangles.len());
+        let is_baked = loaded.solved.is_some();
+        self.num_elements = is_baked.then_some(loaded.scene.triangles.len());
         self.outcome = if is_baked { LightState::Stored } else { LightState::Dark };
-        let (light_version, camera) = (0, 0);
-        let is_lit = is_baked;
-        self.place = Some(Place { scene, collider, traveller, buffers, shadows, light_version, is_lit, camera });
+        self.place = Some(Place::new(loaded, self.kept_eye.take()));
+        let file = self.source.file();
+        self.watch = file.and_then(|file| FileWatch::start(file, self.job, self.window.clone()));
         if is_baked {
             self.retire();
         }
@@ -185,26 +201,27 @@ impl Session {
 
     /// Shows the light that has just come, the first time with the mesh that it is on.
     fn light_up(&mut self) {
-        let Some(place) = &mut self.place else { return };
-        place.light_version += 1;
-        if let Some((buffers, shadows)) = self.coming.take() {
-            (place.buffers, place.shadows, place.is_lit) = (buffers, shadows, true);
+        let coming = self.coming.take();
+        if let Some(place) = &mut self.place {
+            place.light_up(coming);
         }
     }
 
-    fn finish(&mut self, bake: &Bake) -> Outcome {
+    fn finish(&mut self, solved: Arc<Solved>) -> Outcome {
         self.light_up();
         let elapsed = self.began.elapsed();
         let was_cancelled = self.worker.as_ref().is_some_and(Worker::is_cancelled);
-        self.outcome = LightState::Baked {
-            elapsed,
-            unshot_share: bake.report.unshot_share,
-            num_hemicubes: bake.report.hemicubes,
-            num_patches: bake.report.patches,
-        };
+        let unshot = solved.report.as_ref().map_or(0.0, |report| 100.0 * report.unshot_share);
+        self.outcome = LightState::Baked { elapsed };
         self.retire();
-        let unshot = 100.0 * bake.report.unshot_share;
-        Outcome::Note(if was_cancelled {
+        let mut is_lit = true;
+        if let Some(place) = &mut self.place {
+            place.settle(solved);
+            is_lit = place.is_lit;
+        }
+        Outcome::Note(if !is_lit {
+            "No light arrives on any surface: shown in an even work light".to_owned()
+        } else if was_cancelled {
             format!("Bake ended early: {unshot:.1} % of the light is not shot")
         } else {
             format!("Light solved in {:.1} s", elapsed.as_secs_f32())
@@ -218,15 +235,4 @@ impl Session {
         let title = if was_loading { "This file cannot be opened" } else { "The bake has failed" };
         Outcome::Trouble(title.to_owned(), message)
     }
-}
-
-/// The first camera of the file, else a place from which all is in view.
-fn first_view(scene: &Scene, collider: &Collider) -> Traveller {
-    if let Some(camera) = scene.cameras.first() {
-        return Traveller::new(Eye::from_camera(camera), collider);
-    }
-    const ASPECT: f32 = 16.0 / 9.0;
-    let mut eye = Eye::looking_along(Vec3::ZERO, Vec3::new(-0.6, -0.45, -1.0));
-    eye.frame(scene.bounds(), ASPECT);
-    Traveller::new(eye, collider)
 }

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use crate::render::{Exposure, Look, Shading, ShadowSettings, ShadowTechnique, ToneMap};
+use crate::render::{Exposure, Look, LuxScale, Shading, ShadowSettings, ShadowTechnique, ToneMap};
 use crate::scene::Scene;
 
 /// Exposure changes by this much with one key press, stops.
@@ -11,9 +11,10 @@ const EV_STEP: f32 = 1.0 / 3.0;
 const WORK_LIGHT: Vec3 = Vec3::splat(1.0);
 
 /// Shadings with their names and meanings, in the order in which [`LightSettings::next_shading`] steps.
-pub const SHADINGS: [(Shading, &str, &str); 4] = [
+pub const SHADINGS: [(Shading, &str, &str); 5] = [
     (Shading::Lit, "Lit", "Light that the surfaces send"),
     (Shading::IrradianceOnly, "Light only", "Light that arrives, as white paint would show it"),
+    (Shading::FalseColour, "Illuminance", "Lux in false colours, with lines of equal lux"),
     (Shading::Albedo, "Reflectance", "Colours without light"),
     (Shading::Normals, "Normals", "Directions of the surfaces"),
 ];
@@ -29,6 +30,8 @@ pub struct LightSettings {
     pub tone_map: ToneMap,
     /// What is shown of a surface.
     pub shading: Shading,
+    /// Which illuminance has which false colour.
+    pub lux_scale: LuxScale,
     /// Light straight from the lamps is shown.
     pub direct: bool,
     /// Light after at least one reflection is shown.
@@ -50,6 +53,8 @@ pub struct GroupDial {
     pub name: String,
     /// Factor on the baked light.
     pub intensity: f32,
+    /// Colour that the light takes on, linear; white leaves it as it is.
+    pub tint: Vec3,
     /// Switched on.
     pub is_on: bool,
 }
@@ -62,6 +67,7 @@ impl Default for LightSettings {
             ev: 0.0,
             tone_map: look.tone_map,
             shading: look.shading,
+            lux_scale: look.lux_scale,
             direct: true,
             indirect: true,
             see_through_backs: look.cull_back,
@@ -75,8 +81,7 @@ impl Default for LightSettings {
 impl LightSettings {
     /// One dial a light group of the scene, all as baked.
     pub fn reset_groups(&mut self, scene: &Scene) {
-        let dial = |name: &String| GroupDial { name: name.clone(), intensity: 1.0, is_on: true };
-        self.groups = scene.light_groups.iter().map(dial).collect();
+        self.groups = scene.light_groups.iter().map(|name| GroupDial::of(name)).collect();
     }
 
     /// Exposure is set by hand from now on, beginning with what the meter found.
@@ -112,6 +117,7 @@ impl LightSettings {
             exposure: if self.is_auto { Exposure::Auto } else { Exposure::Ev(self.ev) },
             tone_map: self.tone_map,
             shading: self.shading,
+            lux_scale: self.lux_scale.in_order(),
             direct: f32::from(self.direct),
             indirect: f32::from(self.indirect),
             shadows: self.is_real_time.then(|| self.shadows.clone()),
@@ -124,8 +130,22 @@ impl LightSettings {
 }
 
 impl GroupDial {
-    fn weight(&self) -> Vec3 {
-        Vec3::splat(if self.is_on { self.intensity } else { 0.0 })
+    /// The dial of a group, as baked.
+    #[must_use]
+    pub fn of(name: &str) -> Self {
+        Self { name: name.to_owned(), intensity: 1.0, tint: Vec3::ONE, is_on: true }
+    }
+
+    /// Factor on the baked light per channel.
+    #[must_use]
+    pub fn weight(&self) -> Vec3 {
+        if self.is_on { self.tint * self.intensity } else { Vec3::ZERO }
+    }
+
+    /// The light is as it was baked.
+    #[must_use]
+    pub fn is_as_baked(&self) -> bool {
+        self.weight() == Vec3::ONE
     }
 }
 
@@ -139,8 +159,10 @@ mod tests {
         let mut settings = LightSettings::default();
         settings.reset_groups(&scene);
         settings.groups[0].intensity = 0.5;
+        settings.groups[0].tint = Vec3::new(1.0, 0.5, 0.0);
         settings.groups[1].is_on = false;
-        assert_eq!(settings.look(true).group_weights, [Vec3::splat(0.5), Vec3::ZERO]);
+        assert_eq!(settings.look(true).group_weights, [Vec3::new(0.5, 0.25, 0.0), Vec3::ZERO]);
+        assert!(!settings.groups[0].is_as_baked() && GroupDial::of("lamps").is_as_baked());
         assert_eq!(settings.groups[1].intensity, 1.0);
     }
 

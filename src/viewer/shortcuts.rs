@@ -5,11 +5,11 @@
 use winit::event::KeyEvent;
 use winit::keyboard::{Key, KeyCode, PhysicalKey};
 
-use super::panels::Command;
+use super::panels::{Command, Tool};
 
 /// What a key press asks for.
 #[must_use]
-pub fn command_of(event: &KeyEvent) -> Option<Command> {
+pub fn command_of(event: &KeyEvent, is_control_down: bool) -> Option<Command> {
     if let Key::Character(sign) = &event.logical_key {
         match sign.as_str() {
             "+" | "=" => return Some(Command::StepExposure(1.0)),
@@ -18,9 +18,19 @@ pub fn command_of(event: &KeyEvent) -> Option<Command> {
         }
     }
     match event.physical_key {
-        PhysicalKey::Code(code) if !event.repeat => command_of_code(code),
+        PhysicalKey::Code(code) if !event.repeat => {
+            bookmark(code, is_control_down).or_else(|| if is_control_down { None } else { command_of_code(code) })
+        }
         _ => None,
     }
+}
+
+/// Number keys go to bookmarks, and set them with control.
+fn bookmark(code: KeyCode, is_control_down: bool) -> Option<Command> {
+    use KeyCode::*;
+    let digits = [Digit1, Digit2, Digit3, Digit4, Digit5, Digit6, Digit7, Digit8, Digit9];
+    let number = 1 + digits.iter().position(|&digit| digit == code)? as u8;
+    Some(if is_control_down { Command::Bookmark(number) } else { Command::Recall(number) })
 }
 
 fn command_of_code(code: KeyCode) -> Option<Command> {
@@ -36,8 +46,16 @@ fn command_of_code(code: KeyCode) -> Option<Command> {
         KeyCode::KeyX => Command::ToggleAutoExposure,
         KeyCode::KeyT => Command::NextToneMap,
         KeyCode::KeyV => Command::NextShading,
-        KeyCode::Digit1 => Command::ToggleDirect,
-        KeyCode::Digit2 => Command::ToggleIndirect,
+        KeyCode::KeyJ => Command::ToggleDirect,
+        KeyCode::KeyK => Command::ToggleIndirect,
+        KeyCode::KeyR => Command::ToggleStills,
+        KeyCode::KeyM => Command::Take(Tool::Meter),
+        KeyCode::KeyG => Command::Take(Tool::Grid),
+        KeyCode::KeyN => Command::Take(Tool::Sight),
+        KeyCode::KeyL => Command::Take(Tool::Choose),
+        KeyCode::Enter => Command::Pin,
+        KeyCode::KeyO => Command::ChooseFile,
+        KeyCode::F5 => Command::Reload,
         KeyCode::KeyB => Command::ToggleBake,
         _ => return None,
     })
@@ -53,6 +71,13 @@ mod tests {
         for code in [KeyW, KeyA, KeyS, KeyD, KeyQ, KeyE, KeyC, Space, ShiftLeft, ArrowLeft, ArrowUp] {
             assert_eq!(command_of_code(code), None, "{code:?}");
         }
+    }
+
+    #[test]
+    fn number_keys_go_to_bookmarks_and_set_them_with_control() {
+        assert_eq!(bookmark(KeyCode::Digit3, false), Some(Command::Recall(3)));
+        assert_eq!(bookmark(KeyCode::Digit9, true), Some(Command::Bookmark(9)));
+        assert_eq!(bookmark(KeyCode::Digit0, false), None);
     }
 
     #[test]

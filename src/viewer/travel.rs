@@ -98,9 +98,21 @@ impl Traveller {
 
     /// Stands back, flying, until the whole scene is in view.
     pub fn frame_all(&mut self, collider: &Collider, aspect: f32) {
+        self.frame(collider.bounds(), aspect);
+    }
+
+    /// Turns about a point, flying.
+    pub fn orbit(&mut self, pivot: Vec3, left: f32, up: f32) {
         self.walker = None;
         self.glide.stop();
-        self.eye.frame(collider.bounds(), aspect);
+        self.eye.orbit(pivot, left, up);
+    }
+
+    /// Stands back, flying, until a box is in view.
+    pub fn frame(&mut self, bounds: (Vec3, Vec3), aspect: f32) {
+        self.walker = None;
+        self.glide.stop();
+        self.eye.frame(bounds, aspect);
     }
 
     /// Faster or slower by notches of the wheel.

@@ -2,26 +2,33 @@
 //! `frame`.
 
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use winit::event::{DeviceEvent, ElementState, KeyEvent, MouseScrollDelta, WindowEvent};
+use winit::event::{DeviceEvent, ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::event_loop::EventLoopProxy;
 use winit::keyboard::{Key, KeyCode, NamedKey, PhysicalKey};
 use winit::window::Window;
 
 use super::ViewerOptions;
-use super::bake_worker::{News, Source};
+use super::errand::Errands;
 use super::gui::Gui;
 use super::input::{Keys, MouseLook};
+use super::inquiry::Inquiry;
+use super::marks_cache::MarksCache;
+use super::memory::Memory;
 use super::pacing::Pacer;
-use super::panels::{Notice, Panels, Trouble};
+use super::panels::{Notice, Panels, Tool, Trouble};
 use super::screen::Screen;
 use super::session::{Outcome, Session};
 use super::shortcuts::command_of;
+use super::worker::{Event, News, Source};
 use crate::bake::BakeSettings;
 
 /// Pixels of a touchpad's scroll that count as one notch of a wheel.
 const PIXELS_A_NOTCH: f64 = 40.0;
+
+/// What the user has set is written down at most this often.
+const REMEMBER_INTERVAL: Duration = Duration::from_secs(2);
 
 /// The open window and everything that lives as long.
 pub struct Walkthrough {
@@ -40,6 +47,19 @@ pub struct Walkthrough {
     /// As given on the command line; the first bake's.
     pub(super) settings: BakeSettings,
     pub(super) adapter: String,
+    /// Work that clicks have asked for.
+    pub(super) errands: Errands,
+    /// What it has brought.
+    pub(super) inquiry: Inquiry,
+    pub(super) marks: MarksCache,
+    /// When a still camera begins to trace.
+    pub(super) still_due: Option<Instant>,
+    /// What was written down last, and when.
+    remembered: (Memory, Instant),
+    /// A still camera was to trace in the last frame.
+    pub(super) traced_stills: bool,
+    /// What the eye circles round while a button is held.
+    orbit: Option<glam::Vec3>,
 }
 
 impl Walkthrough {
@@ -52,13 +72,16 @@ impl Walkthrough {
         let gui = Gui::new(&window, screen.gpu.device.limits().max_texture_dimension_2d);
         let refresh_rate = window.current_monitor().and_then(|monitor| monitor.refresh_rate_millihertz());
         let pacer = Pacer::new(refresh_rate.map_or(60.0, |rate| rate as f32 / 1e3), options.frame_log.as_deref())?;
+        let errands = Errands::new(proxy.clone());
         let mut session = Session::new(Arc::clone(&screen.gpu), proxy);
+        let memory = Memory::place().map_or_else(Memory::default, |path| Memory::read(&path));
         let source = options.scene.clone().map_or_else(Source::default, Source::of);
         session.open(source, options.settings)?;
         Ok(Self {
             adapter: screen.gpu.name(),
             picture_size: screen.size(),
-            panels: Panels::new(options.settings.quality),
+            remembered: (memory.clone(), Instant::now()),
+            panels: Panels::new(options.settings.quality, memory),
             settings: options.settings,
             keys: Keys::default(),
             look: MouseLook::default(),
@@ -68,25 +91,67 @@ impl Walkthrough {
             session,
             pacer,
             settle: None,
+            errands,
+            inquiry: Inquiry::default(),
+            marks: MarksCache::default(),
+            still_due: None,
+            traced_stills: false,
+            orbit: None,
         })
     }
 
     /// The worker has something to tell.
     pub fn on_news(&mut self, news: News) {
-        match self.session.hear(news) {
+        // The open file stays the same from bake to bake.
+        if news.job == self.session.job() || matches!(news.event, Event::FileChanged) {
+            self.on_event(news.event);
+        }
+        self.pacer.want();
+    }
+
+    fn on_event(&mut self, event: Event) {
+        let outcome = match event {
+            Event::Found(errand, finding) => return self.receive(errand, finding),
+            Event::FileChanged => return self.reload("The file has changed: reading it again"),
+            event => self.session.hear(event),
+        };
+        match outcome {
             Outcome::Changed => {}
             Outcome::Opened => self.welcome(),
             Outcome::Note(text) => self.panels.notice = Some(Notice::new(text)),
             Outcome::Trouble(title, text) => self.panels.trouble = Some(Trouble { title, text }),
         }
-        self.pacer.want();
     }
 
     fn welcome(&mut self) {
+        self.forget();
         let Some(place) = &self.session.place else { return };
         self.window.set_title(&format!("{} - Hemicube", place.scene.name));
         self.panels.light.reset_groups(&place.scene);
+        self.panels.selection = Default::default();
         self.panels.trouble = None;
+        if let Some(advice) = place.advice.first().filter(|advice| *advice == super::default_sky::NOTE) {
+            self.panels.notice = Some(Notice::new(advice.as_str()));
+        }
+        let name = self.session.name();
+        if matches!(Source::of(name.clone()), Source::File(_)) {
+            self.panels.memory.opened(&name);
+        }
+        self.remember();
+    }
+
+    /// Writes down what has changed, now and then.
+    pub(super) fn remember_changes(&mut self) {
+        if self.remembered.1.elapsed() > REMEMBER_INTERVAL && self.remembered.0 != self.panels.memory {
+            self.remember();
+        }
+    }
+
+    fn remember(&mut self) {
+        if let Some(path) = Memory::place() {
+            self.panels.memory.write(&path);
+        }
+        self.remembered = (self.panels.memory.clone(), Instant::now());
     }
 
     /// An event of the window; true where the window shall close.
@@ -110,13 +175,9 @@ impl Walkthrough {
             WindowEvent::KeyboardInput { event, .. } if self.is_quit(event) => return true,
             WindowEvent::KeyboardInput { event, .. } if !self.gui.has_keyboard() => self.on_key(event),
             WindowEvent::MouseInput { state: ElementState::Pressed, button, .. } if !self.gui.has_pointer() => {
-                self.look.press(*button, &self.window);
-                self.pacer.want();
+                self.press(*button);
             }
-            WindowEvent::MouseInput { state: ElementState::Released, button, .. } => {
-                self.look.lift(*button, &self.window);
-                self.pacer.want();
-            }
+            WindowEvent::MouseInput { state: ElementState::Released, button, .. } => self.lift(*button),
             WindowEvent::MouseWheel { delta, .. } if !self.gui.has_pointer() => self.on_wheel(*delta),
             WindowEvent::CursorMoved { position, .. } => {
                 let turn = self.look.pointer_motion(*position);
@@ -137,9 +198,31 @@ impl Walkthrough {
 
     fn turn(&mut self, turn: Option<(f32, f32)>) {
         if let (Some((left, up)), Some(place)) = (turn, &mut self.session.place) {
-            place.traveller.eye.turn(left, up);
+            match self.orbit {
+                Some(pivot) => place.traveller.orbit(pivot, left, up),
+                None => place.traveller.eye.turn(left, up),
+            }
             self.pacer.want();
         }
+    }
+
+    fn press(&mut self, button: MouseButton) {
+        let circles = button == MouseButton::Middle || (button == MouseButton::Left && self.keys.is_alt_down());
+        let pivot = self.look.pointer().filter(|_| circles).and_then(|pixel| self.picked(pixel));
+        self.orbit = pivot.map(|pick| pick.point);
+        self.look.press(button, &self.window);
+        self.pacer.want();
+    }
+
+    fn lift(&mut self, button: MouseButton) {
+        let click = self.look.lift(button, &self.window).filter(|_| self.orbit.is_none());
+        self.orbit = None;
+        match click {
+            Some(_) if self.panels.tool == Tool::Look => self.look.capture(&self.window),
+            Some(pixel) => self.click(pixel),
+            None => {}
+        }
+        self.pacer.want();
     }
 
     /// Ctrl and Q.
@@ -156,7 +239,7 @@ impl Walkthrough {
         }
         if is_down && event.logical_key == Key::Named(NamedKey::Escape) {
             self.escape();
-        } else if is_down && let Some(command) = command_of(event) {
+        } else if is_down && let Some(command) = command_of(event, self.keys.is_control_down()) {
             self.perform(command);
         }
         self.pacer.want();
@@ -164,9 +247,13 @@ impl Walkthrough {
 
     /// Gives back what is open, one thing at a time.
     fn escape(&mut self) {
-        if !self.look.release(&self.window) && !std::mem::take(&mut self.panels.shows_help) {
-            self.panels.trouble = None;
-        }
+        let panels = &mut self.panels;
+        let _ = self.look.release(&self.window)
+            || std::mem::take(&mut panels.shows_help)
+            || panels.dialog.take().is_some()
+            || panels.trouble.take().is_some()
+            || std::mem::take(&mut panels.tool) != Tool::Look
+            || panels.selection.chosen.take().is_some();
     }
 
     fn on_wheel(&mut self, delta: MouseScrollDelta) {
@@ -174,9 +261,17 @@ impl Walkthrough {
             MouseScrollDelta::LineDelta(_, lines) => lines,
             MouseScrollDelta::PixelDelta(pixels) => (pixels.y / PIXELS_A_NOTCH) as f32,
         };
-        if let Some(place) = &mut self.session.place {
+        if self.keys.is_control_down() {
+            self.zoom(notches);
+        } else if let Some(place) = &mut self.session.place {
             place.traveller.change_speed(notches);
-            self.pacer.want();
         }
+        self.pacer.want();
+    }
+}
+
+impl Drop for Walkthrough {
+    fn drop(&mut self) {
+        self.remember();
     }
 }

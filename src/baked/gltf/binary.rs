@@ -27,6 +27,15 @@ impl Binary {
         }))
     }
 
+    /// Adds colours of 0 to 1 in 16 bits a channel.
+    pub(super) fn push_colours(&mut self, colours: impl Iterator<Item = [f32; 4]>) -> usize {
+        let short: Vec<[u16; 4]> = colours.map(|colour| colour.map(|x| (x * 65_535.0).round() as u16)).collect();
+        let view = self.push_view(bytemuck::cast_slice(short.as_flattened()), Some(TARGET_VERTICES));
+        self.push_accessor(json!({
+            "bufferView": view, "componentType": COMPONENT_U16, "normalized": true, "count": short.len(), "type": "VEC4",
+        }))
+    }
+
     /// Adds positions; glTF wants to know their bounds. There must be at least one.
     pub(super) fn push_positions(&mut self, positions: impl Iterator<Item = [f32; 3]> + Clone) -> usize {
         let bound = |pick: fn(f32, f32) -> f32| -> [f32; 3] {

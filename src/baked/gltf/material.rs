@@ -1,13 +1,17 @@
 //! Materials, textures, samplers and images.
 
+use std::borrow::Cow;
 use std::collections::HashMap;
+use std::io::Cursor;
 use std::sync::Arc;
 
 use glam::{Affine2, Vec3};
+use image::codecs::png::PngEncoder;
+use image::{ExtendedColorType, ImageEncoder};
 use serde_json::{Map, Value, json};
 
 use super::binary::Binary;
-use super::{Extensions, named, node};
+use super::{Extensions, look, named, node};
 use crate::scene::{AlphaMode, Image, Material, Sampler, Scene, TextureSlot, Wrap};
 
 /// The texture slots that a material fills.
@@ -35,15 +39,29 @@ pub(super) fn unique_images(scene: &Scene) -> UniqueImages<'_> {
     unique
 }
 
-/// The encoded images, unchanged.
+/// The encoded images, unchanged where every viewer can read them, else as PNG.
 pub(super) fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
     let embedded = |image: &&Image| {
+        let is_plain = !image.encoded.is_empty() && matches!(image.mime_type.as_str(), "image/png" | "image/jpeg");
+        let (encoded, mime_type) = if is_plain {
+            (Cow::Borrowed(&image.encoded), image.mime_type.as_str())
+        } else {
+            (Cow::Owned(png(image)), "image/png")
+        };
         let mut object = named(&image.name);
-        object["bufferView"] = json!(binary.push_image(&image.encoded));
-        object["mimeType"] = json!(image.mime_type);
+        object["bufferView"] = json!(binary.push_image(&encoded));
+        object["mimeType"] = json!(mime_type);
         object
     };
     unique.images.iter().map(embedded).collect()
+}
+
+fn png(image: &Image) -> Vec<u8> {
+    let mut file = Cursor::new(Vec::new());
+    PngEncoder::new(&mut file)
+        .write_image(&image.rgba, image.width, image.height, ExtendedColorType::Rgba8)
+        .expect("an image has as many pixels as it says, and memory takes them");
+    file.into_inner()
 }
 
 /// One texture object each, which names its image and its sampler.
@@ -84,9 +102,38 @@ fn sampler(sampler: Sampler) -> Value {
     json!({ "wrapS": wrap(sampler.wrap_u), "wrapT": wrap(sampler.wrap_v), "magFilter": mag, "minFilter": min })
 }
 
-/// All materials.
-pub(super) fn materials(scene: &Scene, used: &mut Extensions) -> Vec<Value> {
-    scene.materials.iter().map(|material| object(scene, material, used)).collect()
+/// All materials; those of a bake show the light in their vertex colours.
+pub(super) fn materials(scene: &Scene, is_baked: bool, used: &mut Extensions) -> Vec<Value> {
+    let object = |material| {
+        let object = object(scene, material, used);
+        if is_baked { showing_light(object, material, used) } else { object }
+    };
+    scene.materials.iter().map(object).collect()
+}
+
+/// The material as an unlit surface that leaves all colour to its vertices and its texture, with what it was in `extras`.
+fn showing_light(mut object: Value, material: &Material, used: &mut Extensions) -> Value {
+    const UNLIT: &str = "KHR_materials_unlit";
+    let mut paint = json!({
+        "base_colour": material.base_colour.to_array(),
+        "double_sided": material.double_sided,
+        "unlit": material.unlit,
+    });
+    let pbr = &mut object["pbrMetallicRoughness"];
+    pbr["baseColorFactor"] = json!([1.0, 1.0, 1.0, material.base_colour.w]);
+    if let Some(slot) = material.emissive_texture.filter(|_| look::shows_emission(material)) {
+        paint["shows_emission"] = json!(true);
+        paint["base_colour_texture"] = pbr["baseColorTexture"].take();
+        pbr["baseColorTexture"] = texture_info(&slot, used);
+    }
+    // The back of a double-sided surface is there as triangles of its own.
+    if let Some(object) = object.as_object_mut() {
+        object.remove("doubleSided");
+    }
+    object["extras"]["paint"] = paint;
+    object["extensions"][UNLIT] = json!({});
+    used.insert(UNLIT);
+    object
 }
 
 fn object(scene: &Scene, material: &Material, used: &mut Extensions) -> Value {

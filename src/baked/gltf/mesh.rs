@@ -1,25 +1,27 @@
-//! Instances as meshes: one primitive for each material and side.
+//! What nodes show, as meshes: one primitive for each material and side.
 
 use std::collections::{BTreeMap, HashMap};
 
+use glam::Vec4;
 use serde_json::{Map, Value, json};
 
 use super::binary::Binary;
+use super::hierarchy::Branch;
+use super::look::Look;
 use super::material::texture_slots;
 use super::named;
-use crate::baked::VertexLight;
 use crate::base::ids::MaterialId;
-use crate::scene::{Instance, Material, Scene, Vertex};
+use crate::scene::{Material, Scene, Vertex};
 
-/// One mesh an instance that has triangles, in their order.
-pub(super) fn meshes(scene: &Scene, light: Option<&VertexLight>, binary: &mut Binary) -> Vec<Value> {
-    let drawn = scene.instances.iter().filter(|instance| !instance.triangles.is_empty());
-    drawn.map(|instance| mesh(scene, light, instance, binary)).collect()
+/// One mesh a branch that has triangles, in their order.
+pub(super) fn meshes(scene: &Scene, branches: &[Branch], look: Option<Look<'_>>, binary: &mut Binary) -> Vec<Value> {
+    let drawn = branches.iter().filter(|branch| !branch.triangles.is_empty());
+    drawn.map(|branch| mesh(scene, look, branch, binary)).collect()
 }
 
-fn mesh(scene: &Scene, light: Option<&VertexLight>, instance: &Instance, binary: &mut Binary) -> Value {
+fn mesh(scene: &Scene, look: Option<Look<'_>>, branch: &Branch, binary: &mut Binary) -> Value {
     let mut parts: BTreeMap<(MaterialId, bool), Vec<[u32; 3]>> = BTreeMap::new();
-    for triangle in &scene.triangles[instance.triangles.clone()] {
+    for triangle in &scene.triangles[branch.triangles.clone()] {
         parts.entry((triangle.material, triangle.is_back_side)).or_default().push(triangle.vertices);
     }
     let primitives: Vec<Value> = parts
@@ -27,7 +29,7 @@ fn mesh(scene: &Scene, light: Option<&VertexLight>, instance: &Instance, binary:
         .map(|((material, is_back_side), triangles)| {
             let (vertices, indices) = renumber(&triangles);
             let mut primitive = json!({
-                "attributes": attributes(scene, light, &scene.materials[material.index()], &vertices, binary),
+                "attributes": attributes(scene, look, &scene.materials[material.index()], &vertices, binary),
                 "indices": binary.push_indices(&indices, vertices.len()),
                 "material": material.index(),
             });
@@ -37,7 +39,7 @@ fn mesh(scene: &Scene, light: Option<&VertexLight>, instance: &Instance, binary:
             primitive
         })
         .collect();
-    let mut mesh = named(&instance.name);
+    let mut mesh = named(&branch.name);
     mesh["primitives"] = json!(primitives);
     mesh
 }
@@ -62,7 +64,7 @@ fn renumber(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
 /// Accessors of the attributes that say something; what is left out reads back as its default.
 fn attributes(
     scene: &Scene,
-    light: Option<&VertexLight>,
+    look: Option<Look<'_>>,
     material: &Material,
     vertices: &[u32],
     binary: &mut Binary,
@@ -76,10 +78,24 @@ fn attributes(
         let coordinates = used().map(|vertex| vertex.uv[set].to_array());
         put(format!("TEXCOORD_{set}"), binary.push_attribute(coordinates));
     }
-    if used().any(|vertex| vertex.colour != glam::Vec4::ONE) {
+    let is_painted = used().any(|vertex| vertex.colour != Vec4::ONE);
+    if let Some(look) = look {
+        // COLOR_0 shows the light, and the paint lies beside it. All attributes of ours are triples, because Blender's
+        // importer mixes up such as are not alike.
+        put(
+            "COLOR_0".into(),
+            binary.push_colours(vertices.iter().map(|&v| look.colour(scene, material, v).to_array())),
+        );
+        if is_painted {
+            put("_COLOR".into(), binary.push_attribute(used().map(|vertex| vertex.colour.truncate().to_array())));
+        }
+        if used().any(|vertex| vertex.colour.w != 1.0) {
+            put("_ALPHA".into(), binary.push_attribute(used().map(|vertex| [vertex.colour.w; 3])));
+        }
+    } else if is_painted {
         put("COLOR_0".into(), binary.push_attribute(used().map(|vertex| vertex.colour.to_array())));
     }
-    for (g, group) in light.iter().flat_map(|light| light.groups.iter().enumerate()) {
+    for (g, group) in look.iter().flat_map(|look| look.light.groups.iter().enumerate()) {
         for (part, values) in [("DIRECT", &group.direct), ("INDIRECT", &group.indirect)] {
             let values = vertices.iter().map(|&v| values[v as usize].to_array());
             put(format!("_IRRADIANCE_{part}_{g}"), binary.push_attribute(values));

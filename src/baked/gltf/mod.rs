@@ -1,13 +1,19 @@
 //! Writes a bake, or a plain scene, as a standard .glb, and takes the light of a bake back out of a loaded scene.
 //!
-//! Light is stored as float vertex attributes `_IRRADIANCE_DIRECT_g` and `_IRRADIANCE_INDIRECT_g` (lux per channel, g
-//! counts the light groups), which other programs are bound to ignore. What glTF has no words for lies in `extras`:
-//! `light_groups` and `exposure_ev` of the glTF scene, `light_group` of lights and emissive materials, `back_side` of
-//! primitives. Deliberately absent: reading files, which is the loader's alone ([`crate::scene`]).
+//! Light is stored twice. For us, exactly, as float vertex attributes `_IRRADIANCE_DIRECT_g` and
+//! `_IRRADIANCE_INDIRECT_g` (lux per channel, g counts the light groups), which other programs are bound to ignore. For
+//! them, at one exposure, as vertex colours of unlit materials, which every viewer shows. What glTF has no words for lies
+//! in `extras`: `light_groups` and `exposure_ev` of the glTF scene, `light_group` of lights and emissive materials,
+//! `paint` of materials (what they were), `back_side` of primitives; vertex colours of the scene become `_COLOR` and
+//! `_ALPHA`.
+//! Vertices stand in the world and nodes have no transforms, so that reloading gives the same bits.
+//! Deliberately absent: reading files, which is the loader's alone ([`crate::scene`]).
 //!
 //! Source: glTF 2.0 specification, sections 3 (concepts) and 4 (GLB file format).
 
 mod binary;
+mod hierarchy;
+mod look;
 mod material;
 mod mesh;
 mod node;
@@ -18,10 +24,11 @@ use std::path::Path;
 
 use serde_json::{Map, Value, json};
 
-use super::{BakedError, BakedScene, VertexLight};
+use self::binary::Binary;
+use self::look::Look;
+use super::{BakedError, BakedScene};
 use crate::base::output::write_whole;
 use crate::scene::Scene;
-use binary::Binary;
 
 pub use read::from_scene;
 
@@ -31,7 +38,7 @@ const CHUNK_BINARY: u32 = 0x004e_4942;
 
 /// Writes a bake to `path`: under a temporary name in the same folder, renamed when it is whole.
 ///
-/// `exposure_ev` is the exposure that shows the scene well; viewers of this format start with it.
+/// `exposure_ev` is the exposure at which other programs show it: displayed = radiance x 2^EV.
 ///
 /// # Errors
 /// The folder is not writable, or the scene is larger than a .glb can be.
@@ -45,7 +52,8 @@ pub fn write(path: &Path, baked: &BakedScene, exposure_ev: f32) -> Result<(), Ba
 /// # Errors
 /// The scene is larger than a .glb can be.
 pub fn to_glb(baked: &BakedScene, exposure_ev: f32) -> Result<Vec<u8>, BakedError> {
-    let mut document = Document::of(&baked.scene, Some(&baked.light));
+    let look = Look { light: &baked.light, exposure: exposure_ev.exp2() };
+    let mut document = Document::of(&baked.scene, Some(look));
     document.root["scenes"][0]["extras"]["exposure_ev"] = json!(exposure_ev);
     document.into_glb()
 }
@@ -69,10 +77,11 @@ struct Document {
 
 impl Document {
     /// Tells a scene in glTF's arrays; an empty array must not be written.
-    fn of(scene: &Scene, light: Option<&VertexLight>) -> Self {
+    fn of(scene: &Scene, look: Option<Look<'_>>) -> Self {
         let mut binary = Binary::default();
         let mut extensions = Extensions::new();
-        let meshes = mesh::meshes(scene, light, &mut binary);
+        let branches = hierarchy::branches(scene);
+        let meshes = mesh::meshes(scene, &branches, look, &mut binary);
         let images = material::unique_images(scene);
         let mut root = Map::new();
         let mut put = |key: &str, items: Vec<Value>| {
@@ -83,10 +92,9 @@ impl Document {
         put("images", material::images(&images, &mut binary));
         put("samplers", material::samplers(scene));
         put("textures", material::textures(scene, &images));
-        put("materials", material::materials(scene, &mut extensions));
+        put("materials", material::materials(scene, look.is_some(), &mut extensions));
         put("cameras", node::cameras(scene));
-        let nodes = node::nodes(scene, &meshes);
-        let node_ids: Vec<usize> = (0..nodes.len()).collect();
+        let (nodes, roots) = node::nodes(scene, &branches);
         put("nodes", nodes);
         put("meshes", meshes);
         put("accessors", binary.accessors);
@@ -103,7 +111,7 @@ impl Document {
         }
         root.insert("asset".into(), json!({ "version": "2.0", "generator": "hemicube" }));
         root.insert("scene".into(), json!(0));
-        root.insert("scenes".into(), json!([scene_object(scene, &node_ids)]));
+        root.insert("scenes".into(), json!([scene_object(scene, &roots)]));
         Self { root: Value::Object(root), binary: binary.bytes }
     }
 
@@ -129,10 +137,10 @@ impl Document {
     }
 }
 
-fn scene_object(scene: &Scene, node_ids: &[usize]) -> Value {
+fn scene_object(scene: &Scene, roots: &[usize]) -> Value {
     let mut object = named(&scene.name);
-    if !node_ids.is_empty() {
-        object["nodes"] = json!(node_ids);
+    if !roots.is_empty() {
+        object["nodes"] = json!(roots);
     }
     object["extras"] = json!({ "light_groups": scene.light_groups });
     object

@@ -3,6 +3,7 @@
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
+use super::hierarchy::Branch;
 use super::named;
 use crate::base::ids::GroupId;
 use crate::scene::{Camera, Light, LightKind, Projection, Scene};
@@ -15,13 +16,22 @@ const NEAR: f32 = 0.01;
 /// Where an orthographic view ends, metres; glTF wants one, nobody here reads it.
 const FAR: f32 = 1000.0;
 
-/// One node for every mesh, light and camera, in this order.
-pub(super) fn nodes(scene: &Scene, meshes: &[Value]) -> Vec<Value> {
-    let mesh_node = |(id, mesh): (usize, &Value)| {
-        let mut node = named(mesh["name"].as_str().unwrap_or(""));
-        node["mesh"] = json!(id);
-        node
-    };
+/// One node for every branch, light and camera, in this order; and which of them have none above.
+pub(super) fn nodes(scene: &Scene, branches: &[Branch]) -> (Vec<Value>, Vec<usize>) {
+    let mut mesh_nodes: Vec<Value> = branches.iter().map(|branch| named(&branch.name)).collect();
+    let drawn = branches.iter().enumerate().filter(|(_, branch)| !branch.triangles.is_empty());
+    for (mesh, (node, _)) in drawn.enumerate() {
+        mesh_nodes[node]["mesh"] = json!(mesh);
+    }
+    for (id, branch) in branches.iter().enumerate() {
+        if let Some(parent) = branch.parent {
+            let children = &mut mesh_nodes[parent]["children"];
+            match children.as_array_mut() {
+                Some(children) => children.push(json!(id)),
+                None => *children = json!([id]),
+            }
+        }
+    }
     let light_node = |(id, light): (usize, &Light)| {
         let (translation, rotation) = place_of_light(light);
         let mut node = placed(&light.name, translation, rotation);
@@ -33,10 +43,12 @@ pub(super) fn nodes(scene: &Scene, meshes: &[Value]) -> Vec<Value> {
         node["camera"] = json!(id);
         node
     };
-    let meshes = meshes.iter().enumerate().map(mesh_node);
     let lights = scene.lights.iter().enumerate().map(light_node);
     let cameras = scene.cameras.iter().enumerate().map(camera_node);
-    meshes.chain(lights).chain(cameras).collect()
+    let nodes: Vec<Value> = mesh_nodes.into_iter().chain(lights).chain(cameras).collect();
+    let is_root = |id: &usize| branches.get(*id).is_none_or(|branch| branch.parent.is_none());
+    let roots = (0..nodes.len()).filter(is_root).collect();
+    (nodes, roots)
 }
 
 fn placed(name: &str, translation: Vec3, rotation: Quat) -> Value {

@@ -3,6 +3,7 @@ use std::sync::Arc;
 use glam::{Affine2, Vec2, Vec3, Vec4};
 
 use super::*;
+use crate::baked::VertexLight;
 use crate::base::ids::{GroupId, InstanceId, MaterialId, TextureId};
 use crate::scene::{
     AlphaMode, Camera, Image, Instance, Light, LightKind, Material, Projection, Sampler, Texture, TextureSlot,
@@ -83,7 +84,7 @@ fn scene() -> Scene {
         position: Vec3::new(x / 3.0, y / 7.0, z),
         normal: Vec3::Z,
         uv: [Vec2::new(x, y), Vec2::new(y, x)],
-        colour: Vec4::new(1.0, 0.5, 0.25, 1.0),
+        colour: Vec4::new(1.0, 0.5, 0.25, 0.75),
     };
     let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
     let vertices = [0.1, 0.2, 0.2].into_iter().flat_map(|z| square.map(|at| corner(at, z))).collect();
@@ -214,4 +215,91 @@ fn assert_same_material(stored: &Material, back: &Material) {
         ..material.clone()
     };
     assert_eq!(without_slots(stored), without_slots(back));
+}
+
+#[test]
+fn a_bake_keeps_its_materials_under_the_look_that_it_shows() {
+    let stored = baked();
+    let back = reloaded(&to_glb(&stored, 0.0).expect("small"));
+    assert_eq!(back.materials.len(), stored.scene.materials.len());
+    for (stored, back) in stored.scene.materials.iter().zip(&back.materials) {
+        assert_same_material(stored, back);
+    }
+}
+
+/// COLOR_0 of all primitives, as other programs read it.
+fn shown_colours(glb: &[u8]) -> Vec<[f32; 4]> {
+    let file = gltf::Gltf::from_slice_without_validation(glb).expect("glTF");
+    let blob = file.blob.as_deref().expect("a binary half");
+    let of_primitive = |part: gltf::Primitive<'_>| {
+        let accessor = part.get(&gltf::Semantic::Colors(0)).expect("colours");
+        assert!(accessor.normalized() && accessor.data_type() == gltf::accessor::DataType::U16);
+        let bytes = &blob[accessor.view().expect("bytes").offset()..][..8 * accessor.count()];
+        let words = bytes.chunks_exact(2).map(|word| f32::from(u16::from_le_bytes([word[0], word[1]])) / 65_535.0);
+        let words: Vec<f32> = words.collect();
+        words.chunks_exact(4).map(|c| [c[0], c[1], c[2], c[3]]).collect::<Vec<_>>()
+    };
+    file.meshes().flat_map(|mesh| mesh.primitives().flat_map(of_primitive).collect::<Vec<_>>()).collect()
+}
+
+#[test]
+fn other_programs_see_exposed_light_on_unlit_surfaces() {
+    let mut scene = Scene { lights: Vec::new(), cameras: Vec::new(), textures: Vec::new(), ..scene() };
+    let paint = Material { base_colour: Vec4::new(0.5, 0.25, 1.0, 1.0), ..Material::default() };
+    scene.materials =
+        vec![paint, Material { emission: Vec3::splat(0.1), group: Some(GroupId(0)), ..paint_of_nothing() }];
+    let mut light = VertexLight::dark(2, scene.vertices.len());
+    light.groups[1].direct.fill(Vec3::splat(0.25 * std::f32::consts::PI));
+    light.groups[0].indirect.fill(Vec3::splat(0.25 * std::f32::consts::PI));
+    let glb = to_glb(&BakedScene { scene, light }, 1.0).expect("small");
+    // Vertex paint is (1, 0.5, 0.25, 0.75); radiance of white is 0.5, shown twice as bright.
+    let colours = shown_colours(&glb);
+    let close = |a: [f32; 4], b: [f32; 4]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-4);
+    assert!(close(colours[0], [0.5, 0.125, 0.25, 0.75]), "{:?}", colours[0]);
+    assert!(close(colours[4], [0.2, 0.2, 0.2, 0.75]), "{:?}", colours[4]);
+    let file = gltf::Gltf::from_slice_without_validation(&glb).expect("glTF");
+    for material in file.materials() {
+        assert!(material.unlit() && !material.double_sided());
+        assert_eq!(material.pbr_metallic_roughness().base_color_factor()[..3], [1.0; 3]);
+    }
+}
+
+fn paint_of_nothing() -> Material {
+    Material { base_colour: Vec4::W, ..Material::default() }
+}
+
+#[test]
+fn the_tree_of_names_is_kept_without_twigs_that_show_nothing() {
+    let node = |name: &str, parent, instances| crate::scene::NamedNode { name: name.into(), parent, instances };
+    let nodes = vec![
+        node("house", None, 0..0),
+        node("room", Some(0), 0..0),
+        node("", Some(1), 0..1),
+        node("lamp holder", Some(0), 0..0),
+    ];
+    let glb = scene_to_glb(&Scene { nodes, ..scene() }).expect("small");
+    let file = gltf::Gltf::from_slice(&glb).expect("valid glTF");
+    let mut roots = file.scenes().flat_map(|scene| scene.nodes().collect::<Vec<_>>());
+    let house = roots.next().expect("the house");
+    let room = house.children().next().expect("the room");
+    let squares = room.children().next().expect("the squares");
+    let names = [&house, &room, &squares].map(|node| node.name().unwrap_or_default().to_owned());
+    assert_eq!(names, ["house", "room", "squares"]);
+    assert_eq!((house.children().len(), house.mesh().is_none(), squares.mesh().is_some()), (1, true, true));
+    assert!(roots.all(|node| node.light().is_some() || node.camera().is_some()));
+    assert_eq!(reloaded(&glb).nodes[2].parent, Some(1));
+}
+
+#[test]
+fn pictures_that_plain_gltf_has_not_are_written_as_png() {
+    let mut image = (*texture(Wrap::Repeat).image).clone();
+    image.mime_type = "image/ktx2".into();
+    image.encoded = vec![1, 2, 3];
+    let mut stored = scene();
+    stored.textures[0].image = Arc::new(image);
+    let back = reloaded(&scene_to_glb(&stored).expect("small"));
+    assert_eq!(
+        (back.textures[0].image.mime_type.as_str(), &back.textures[0].image.rgba[..3]),
+        ("image/png", &[200, 100, 50][..])
+    );
 }

@@ -55,6 +55,16 @@ impl<'a> Rows<'a> {
 impl<'a> Reader<'a> {
     /// Checks the layout of accessor `index`.
     pub fn new(document: &'a Document<'_>, index: Index<Accessor>, user: impl Fn() -> String) -> Result<Self, Cause> {
+        Self::over(document, index, None, user)
+    }
+
+    /// As [`Self::new`], over `decoded` bytes instead of those of the file where there are any.
+    pub fn over(
+        document: &'a Document<'_>,
+        index: Index<Accessor>,
+        decoded: Option<&'a [u8]>,
+        user: impl Fn() -> String,
+    ) -> Result<Self, Cause> {
         let accessor = document.find(index, "accessor", user)?;
         let failed = |problem: &str| Cause::accessor(index.value(), problem);
         let Checked::Valid(json::accessor::GenericComponentType(component)) = accessor.component_type else {
@@ -71,8 +81,13 @@ impl<'a> Reader<'a> {
             base: None,
             overlay: None,
         };
-        if matches!(shape, Type::Mat2 | Type::Mat3 | Type::Mat4) {
+        if matches!(shape, Type::Mat2 | Type::Mat3) {
             return Err(failed("a matrix where a vector or number is wanted"));
+        }
+        if let Some(bytes) = decoded {
+            let rows = Rows::new(bytes, 0, reader.size(), reader.size(), count);
+            reader.base = Some(rows.ok_or_else(|| failed("too few values were compressed"))?);
+            return Ok(reader);
         }
         let offset = accessor.byte_offset.unwrap_or_default().0;
         match accessor.buffer_view {

@@ -9,16 +9,21 @@ use gltf::json::validation::Checked;
 
 use super::document::Document;
 use super::error::Cause;
+use super::instancing;
 use super::tree::PlacedNode;
 
-/// Most vertices or triangles of a scene: about 6 GB.
-const MAX_COUNT: u64 = 100_000_000;
+/// Most vertices or triangles of a scene: about 2 GB.
+const MAX_COUNT: u64 = 32_000_000;
 
 /// Refuses a scene with more vertices or triangles than fit, all instances counted.
 pub(super) fn check(document: &Document<'_>, nodes: &[PlacedNode<'_>]) -> Result<(), Cause> {
-    let meshes = nodes.iter().filter_map(|placed| document.root.get(placed.node.mesh?));
-    let sizes = meshes.flat_map(|mesh| &mesh.primitives).map(|primitive| predicted_size(document, primitive));
-    let size = sizes.fold(0, u64::saturating_add);
+    let mut size = 0u64;
+    for placed in nodes {
+        let Some(mesh) = placed.node.mesh.and_then(|mesh| document.root.get(mesh)) else { continue };
+        let places = instancing::count(document, placed.node, placed.index)?;
+        let once = mesh.primitives.iter().map(|primitive| predicted_size(document, primitive));
+        size = size.saturating_add(once.fold(0, u64::saturating_add).max(1).saturating_mul(places));
+    }
     if size > MAX_COUNT {
         return Err(Cause::TooLarge(format!(
             "its instances have up to {size} vertices or triangles, and at most {MAX_COUNT} are loaded"

@@ -11,17 +11,27 @@ use super::error::Cause;
 
 const GLB_HEADER_BYTES: usize = 12;
 
-/// Typed JSON of a .gltf or .glb file, and the binary chunk of the latter.
-pub(super) fn split(bytes: &[u8]) -> Result<(Root, Option<&[u8]>), Cause> {
+/// What a file consists of.
+pub(super) struct Parts<'a> {
+    /// Typed JSON.
+    pub root: Root,
+    /// Its skins, untyped: a broken one matters only where a mesh wears it.
+    pub skins: Vec<Value>,
+    /// The binary chunk of a .glb.
+    pub blob: Option<&'a [u8]>,
+}
+
+/// Takes a .gltf or .glb file apart.
+pub(super) fn split(bytes: &[u8]) -> Result<Parts<'_>, Cause> {
     if !bytes.starts_with(b"glTF") {
-        return Ok((parse_json(bytes)?, None));
+        return parse_json(bytes, None);
     }
     let Glb { json, bin, .. } = split_glb(bytes)?;
     let blob = match bin {
         Some(std::borrow::Cow::Borrowed(blob)) => Some(blob),
         _ => None,
     };
-    Ok((parse_json(&json)?, blob))
+    parse_json(&json, blob)
 }
 
 fn split_glb(bytes: &[u8]) -> Result<Glb<'_>, Cause> {
@@ -43,15 +53,18 @@ fn split_glb(bytes: &[u8]) -> Result<Glb<'_>, Cause> {
     })
 }
 
-fn parse_json(bytes: &[u8]) -> Result<Root, Cause> {
+fn parse_json<'a>(bytes: &[u8], blob: Option<&'a [u8]>) -> Result<Parts<'a>, Cause> {
     let mut json: Value = serde_json::from_slice(without_byte_order_mark(bytes))
         .map_err(|error| Cause::NotGltf(format!("no valid JSON, {error}")))?;
     let version = json.pointer("/asset/version").and_then(Value::as_str).unwrap_or("unknown");
     if !version.starts_with("2.") {
         return Err(Cause::Version(format!("{version:?}")));
     }
+    let skins = json.get_mut("skins").map_or(Value::Null, Value::take);
+    let skins = if let Value::Array(skins) = skins { skins } else { Vec::new() };
     be_lenient(&mut json);
-    serde_json::from_value(json).map_err(|error| Cause::NotGltf(error.to_string()))
+    let root = serde_json::from_value(json).map_err(|error| Cause::NotGltf(error.to_string()))?;
+    Ok(Parts { root, skins, blob })
 }
 
 fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
@@ -107,9 +120,9 @@ mod tests {
     #[test]
     fn whole_floats_are_read_as_integers_and_scenes_need_no_nodes() {
         let json = br#"{"asset":{"version":"2.0"},"scenes":[{}],"scene":0.0,"skins":[{"joints":"no"}]}"#;
-        let (root, blob) = split(json).expect("valid");
+        let Parts { root, skins, blob } = split(json).expect("valid");
         assert_eq!(root.scene.map(|scene| scene.value()), Some(0));
-        assert!(root.scenes[0].nodes.is_empty() && blob.is_none());
+        assert!(root.scenes[0].nodes.is_empty() && skins.len() == 1 && blob.is_none());
     }
 
     #[test]

@@ -83,6 +83,17 @@ pub enum Cause {
         /// What is wrong.
         problem: String,
     },
+    /// A part of it contradicts itself or the standard, which the sentence names.
+    #[error("{0}")]
+    Broken(String),
+    /// The variant asked for is not in the file.
+    #[error("it has no variant {wanted:?}; there is {available}")]
+    NoSuchVariant {
+        /// What was asked for.
+        wanted: String,
+        /// Names of those that exist.
+        available: String,
+    },
     /// NaN, infinity, or a number far outside what metres, nit or candela can mean.
     #[error("{0} is not a finite number of sensible size")]
     NotFinite(String),

@@ -5,20 +5,27 @@ use gltf::json::Root;
 use super::error::Cause;
 
 /// Read in full.
-const UNDERSTOOD: [&str; 9] = [
+const UNDERSTOOD: [&str; 16] = [
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_variants",
     "KHR_mesh_quantization",
+    "KHR_meshopt_compression",
     "KHR_node_visibility",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
 
 /// Leave geometry and diffuse light as they are, so even a file that requires them is read without them.
-const HARMLESS: [&str; 11] = [
+const HARMLESS: [&str; 10] = [
     "KHR_animation_pointer",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -26,7 +33,6 @@ const HARMLESS: [&str; 11] = [
     "KHR_materials_iridescence",
     "KHR_materials_sheen",
     "KHR_materials_specular",
-    "KHR_materials_variants",
     "KHR_materials_volume",
     "KHR_xmp",
     "KHR_xmp_json_ld",
@@ -49,13 +55,8 @@ pub(super) fn check(root: &Root) -> Result<Option<String>, Cause> {
 /// How to turn a file that requires an extension into one that does not.
 pub(super) fn hint(name: &str) -> &'static str {
     match name {
-        "KHR_draco_mesh_compression" | "EXT_meshopt_compression" | "KHR_meshopt_compression" => {
-            "convert the file with: gltf-transform copy IN.glb OUT.glb"
-        }
-        "EXT_texture_webp" | "EXT_texture_avif" => {
-            "convert its textures with: gltf-transform png IN.glb OUT.glb --formats \"*\""
-        }
-        "KHR_texture_basisu" => "convert its textures with: gltf-transform ktxdecompress IN.glb OUT.glb",
+        "EXT_texture_avif" => "convert its textures with: gltf-transform png IN.glb OUT.glb --formats \"*\"",
+        "MSFT_texture_dds" => "export its textures as PNG or JPEG",
         _ => "export the file without it",
     }
 }
@@ -73,9 +74,9 @@ mod tests {
     }
 
     #[test]
-    fn draco_is_refused_with_a_way_out() {
-        let error = check(&root("KHR_draco_mesh_compression", "")).expect_err("we cannot decode it").to_string();
-        assert!(error.contains("KHR_draco_mesh_compression") && error.contains("gltf-transform copy"), "{error}");
+    fn what_we_cannot_decode_is_refused_with_a_way_out() {
+        let error = check(&root("EXT_texture_avif", "")).expect_err("we cannot decode it").to_string();
+        assert!(error.contains("EXT_texture_avif") && error.contains("gltf-transform png"), "{error}");
     }
 
     #[test]

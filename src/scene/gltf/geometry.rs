@@ -9,14 +9,18 @@ use gltf::json::validation::Checked;
 use gltf::json::{Extras, Index};
 
 use super::accessor::Reader;
+use super::compression::draco::{self, Decoded};
 use super::document::Document;
 use super::error::Cause;
+use super::morph;
+use super::skin::{self, Influence};
 use crate::scene::{Vertex, VertexAttribute};
 
 /// What the attribute names of stored light begin with.
 const IRRADIANCE: &str = "IRRADIANCE_";
 
 /// A primitive, ready to be placed.
+#[derive(Clone)]
 pub(super) struct Geometry {
     /// Vertices that triangles use, in file order; the normal is zero where the file has none.
     pub vertices: Vec<Vertex>,
@@ -26,34 +30,43 @@ pub(super) struct Geometry {
     pub has_normals: bool,
     /// Stored light at `vertices`.
     pub irradiance: Vec<VertexAttribute>,
-    /// Material of the file, or the default one.
-    pub material: Option<usize>,
+    /// Joints that move each of `vertices`; empty where there are none.
+    pub influences: Vec<Vec<Influence>>,
     /// It is the back of a double-sided surface, written out by a bake.
     pub is_back_side: bool,
 }
 
 /// Attributes of a primitive, read row by row.
-struct Attributes<'a> {
+pub(super) struct Attributes<'a> {
     document: &'a Document<'a>,
     map: &'a BTreeMap<Checked<Semantic>, Index<Accessor>>,
+    decoded: &'a Decoded,
     name: &'a str,
 }
 
 impl<'a> Attributes<'a> {
-    fn reader(&self, semantic: Semantic) -> Result<Option<Reader<'a>>, Cause> {
+    pub(super) fn reader(&self, semantic: Semantic) -> Result<Option<Reader<'a>>, Cause> {
         self.map.get(&Checked::Valid(semantic)).map(|&index| self.open(index)).transpose()
     }
 
-    fn open(&self, index: Index<Accessor>) -> Result<Reader<'a>, Cause> {
-        Reader::new(self.document, index, || self.name.to_owned())
+    pub(super) fn open(&self, index: Index<Accessor>) -> Result<Reader<'a>, Cause> {
+        let decoded = self.decoded.get(&index.value()).map(Vec::as_slice);
+        Reader::over(self.document, index, decoded, || self.name.to_owned())
     }
 
-    fn vectors<const N: usize>(&self, semantic: Semantic, rows: &[u32]) -> Result<Option<Vec<[f32; N]>>, Cause> {
+    pub(super) fn vectors<const N: usize>(
+        &self,
+        semantic: Semantic,
+        rows: &[u32],
+    ) -> Result<Option<Vec<[f32; N]>>, Cause> {
         self.reader(semantic)?.map(|reader| reader.vectors(rows)).transpose()
     }
 
     /// COLOR_0 as RGBA; integers are fractions of their largest value.
     fn colours(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
+        if self.irradiance_accessors().next().is_some() {
+            return self.baked_paint(rows);
+        }
         let Some(reader) = self.reader(Semantic::Colors(0))? else { return Ok(None) };
         let reader = if reader.is_integer() { reader.into_fractions() } else { reader };
         let colours = if reader.width() == 3 {
@@ -64,12 +77,24 @@ impl<'a> Attributes<'a> {
         Ok(Some(colours))
     }
 
-    fn irradiance(&self, rows: &[u32]) -> Result<Vec<VertexAttribute>, Cause> {
-        let stored = self.map.iter().filter_map(|(semantic, &index)| match semantic {
+    /// What COLOR_0 was before a bake made it show the light.
+    fn baked_paint(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
+        let kept = |name: &str| self.vectors::<3>(Semantic::Extras(name.to_owned()), rows);
+        let (colours, alphas) = (kept("COLOR")?, kept("ALPHA")?);
+        let colour_at = |v: usize| colours.as_ref().map_or(Vec3::ONE, |colours| Vec3::from(colours[v]));
+        let alpha_at = |v: usize| alphas.as_ref().map_or(1.0, |alphas| alphas[v][0]);
+        Ok(Some((0..rows.len()).map(|v| colour_at(v).extend(alpha_at(v))).collect()))
+    }
+
+    fn irradiance_accessors(&self) -> impl Iterator<Item = (&String, Index<Accessor>)> {
+        self.map.iter().filter_map(|(semantic, &index)| match semantic {
             Checked::Valid(Semantic::Extras(name)) if name.starts_with(IRRADIANCE) => Some((name, index)),
             _ => None,
-        });
-        stored
+        })
+    }
+
+    fn irradiance(&self, rows: &[u32]) -> Result<Vec<VertexAttribute>, Cause> {
+        self.irradiance_accessors()
             .map(|(name, index)| {
                 let values = self.open(index)?.vectors(rows)?.into_iter().map(Vec3::from).collect();
                 Ok(VertexAttribute { name: format!("_{name}"), values })
@@ -77,10 +102,11 @@ impl<'a> Attributes<'a> {
             .collect()
     }
 
-    fn vertices(&self, rows: &[u32]) -> Result<(Vec<Vertex>, bool), Cause> {
+    fn vertices(&self, rows: &[u32], uv_sets: [u32; 2]) -> Result<(Vec<Vertex>, bool), Cause> {
         let positions = self.vectors::<3>(Semantic::Positions, rows)?.unwrap_or_default();
         let normals = self.vectors::<3>(Semantic::Normals, rows)?;
-        let uv = [self.vectors::<2>(Semantic::TexCoords(0), rows)?, self.vectors::<2>(Semantic::TexCoords(1), rows)?];
+        let [first, second] = uv_sets.map(|set| self.vectors::<2>(Semantic::TexCoords(set), rows));
+        let uv = [first?, second?];
         let colours = self.colours(rows)?;
         let uv_at = |set: usize, v: usize| uv[set].as_ref().map_or(Vec2::ZERO, |uv| Vec2::from(uv[v]));
         let vertex = |(v, position): (usize, [f32; 3])| Vertex {
@@ -95,28 +121,35 @@ impl<'a> Attributes<'a> {
 
 impl Geometry {
     /// Reads a primitive; none where it has no triangles to show (points, lines, no positions).
-    pub fn read(document: &Document<'_>, primitive: &Primitive, name: &str) -> Result<Option<Self>, Cause> {
-        let attributes = Attributes { document, map: &primitive.attributes, name };
+    ///
+    /// `uv_sets` are the texture coordinates that its material wants, `weights` those of its morph targets.
+    pub fn read(
+        document: &Document<'_>,
+        primitive: &Primitive,
+        uv_sets: [u32; 2],
+        weights: &[f32],
+        name: &str,
+    ) -> Result<Option<Self>, Cause> {
+        let decoded = draco::decode(document, primitive, name)?;
+        let attributes = Attributes { document, map: &primitive.attributes, decoded: &decoded, name };
         let Some(positions) = attributes.reader(Semantic::Positions)? else { return Ok(None) };
         let Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) = primitive.mode else {
             return Ok(None);
         };
-        if let Some(material) = primitive.material {
-            document.find(material, "material", || name.to_owned())?;
-        }
         let order = match primitive.indices {
             Some(index) => attributes.open(index)?.indices()?,
             None => (0..positions.count() as u32).collect(),
         };
         let mut triangles = triangulate(mode, &order);
         let rows = keep_used(&mut triangles, positions.count()).map_err(|row| dangling_vertex(primitive, row))?;
-        let (vertices, has_normals) = attributes.vertices(&rows)?;
+        let (mut vertices, has_normals) = attributes.vertices(&rows, uv_sets)?;
+        morph::apply(&attributes, primitive.targets.as_deref().unwrap_or_default(), weights, &rows, &mut vertices)?;
         Ok(Some(Self {
             vertices,
             triangles,
             has_normals,
             irradiance: attributes.irradiance(&rows)?,
-            material: primitive.material.map(|material| material.value()),
+            influences: skin::influences(&attributes, &rows)?,
             is_back_side: says_back_side(&primitive.extras),
         }))
     }

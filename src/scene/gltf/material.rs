@@ -6,6 +6,7 @@ use gltf::json::extensions::texture::TextureTransform;
 use gltf::json::validation::Checked;
 use serde::Deserialize;
 
+use super::baked_paint;
 use super::document::Document;
 use super::error::Cause;
 use super::texture::TextureTable;
@@ -37,6 +38,10 @@ pub(super) struct MaterialReader<'a> {
     pub textures: TextureTable,
     /// Remarks for the user.
     pub notes: Vec<String>,
+    /// Texture coordinate sets that each material wants in the two places of a vertex `[m]`.
+    pub uv_sets: Vec<[u32; 2]>,
+    /// Those of the material that is being read.
+    places: [Option<u32>; 2],
 }
 
 /// A texture as a material of the file refers to it.
@@ -53,7 +58,12 @@ impl<'a> Reference<'a> {
     }
 }
 
-impl MaterialReader<'_> {
+impl<'a> MaterialReader<'a> {
+    /// Ready to read the materials of a file.
+    pub fn new(document: &'a Document<'a>) -> Self {
+        Self { document, textures: TextureTable::default(), notes: Vec::new(), uv_sets: Vec::new(), places: [None; 2] }
+    }
+
     /// All materials of the file, in its order.
     pub fn read_all(&mut self) -> Result<Vec<Material>, Cause> {
         let document = self.document;
@@ -62,6 +72,7 @@ impl MaterialReader<'_> {
 
     fn read(&mut self, index: usize, source: &json::Material) -> Result<Material, Cause> {
         let name = source.name.clone().unwrap_or_else(|| format!("material {index}"));
+        self.places = [None; 2];
         let extensions = source.extensions.as_ref();
         let pbr = &source.pbr_metallic_roughness;
         let strength = extensions.and_then(|e| e.emissive_strength.as_ref()).map_or(1.0, |e| e.emissive_strength.0);
@@ -83,10 +94,21 @@ impl MaterialReader<'_> {
             ior: extensions.and_then(|e| e.ior.as_ref()).map_or(1.5, |ior| ior.ior.0),
             name,
         };
+        if let Some(paint) = baked_paint::of(source) {
+            material.base_colour = Vec4::from(paint.base_colour);
+            material.double_sided = paint.double_sided;
+            material.unlit = paint.unlit;
+            if paint.shows_emission {
+                let name = material.name.clone();
+                material.base_colour_texture =
+                    self.slot(&name, paint.base_colour_texture.as_ref().map(Reference::new))?;
+            }
+        }
         if let Some(value) = extensions.and_then(|e| e.others.get("KHR_materials_pbrSpecularGlossiness")) {
             self.take_diffuse(&mut material, value)?;
         }
         clamp(&mut material)?;
+        self.uv_sets.push([self.places[0].unwrap_or(0), self.places[1].unwrap_or(1)]);
         Ok(material)
     }
 
@@ -121,17 +143,26 @@ impl MaterialReader<'_> {
         let Some(reference) = reference else { return Ok(None) };
         let texture = self.textures.id(self.document, reference.index, || format!("material {material:?}"))?;
         let uv_set = reference.transform.and_then(|transform| transform.tex_coord).unwrap_or(reference.uv_set);
-        if uv_set > 1 {
+        let Some(place) = self.place_of_uv_set(uv_set) else {
             self.notes.push(format!(
-                "material {material:?}: a texture that uses TEXCOORD_{uv_set} is left out (only 0 and 1 are read)"
+                "material {material:?}: a texture is left out, for it wants a third set of coordinates, TEXCOORD_{uv_set}"
             ));
             return Ok(None);
-        }
+        };
         let transform = reference.transform.map_or(Affine2::IDENTITY, affine_of);
         if !transform.is_finite() {
             return Err(Cause::NotFinite(format!("a texture transform of material {material:?}")));
         }
-        Ok(Some(TextureSlot { texture, uv_set: uv_set as usize, transform }))
+        Ok(Some(TextureSlot { texture, uv_set: place, transform }))
+    }
+
+    /// Where vertices of this material carry a set: sets 0 and 1 in their own place if it is free.
+    fn place_of_uv_set(&mut self, uv_set: u32) -> Option<usize> {
+        let preferred = usize::from(uv_set > 0);
+        let is_free = |place: &usize| self.places[*place].is_none_or(|taken| taken == uv_set);
+        let place = [preferred, 1 - preferred].into_iter().find(is_free)?;
+        self.places[place] = Some(uv_set);
+        Some(place)
     }
 }
 
@@ -205,6 +236,33 @@ mod tests {
         assert!(close(slot.coordinate([Vec2::ZERO, Vec2::X]), Vec2::new(10.0, 18.0)));
         assert!(close(slot.coordinate([Vec2::ZERO, Vec2::Y]), Vec2::new(13.0, 20.0)));
         assert_eq!(material.normal_texture.map(|(slot, _)| slot), Some(slot));
+    }
+
+    #[test]
+    fn a_material_may_use_any_two_sets_of_coordinates() {
+        let mut fixture = Fixture::triangle();
+        let texture = fixture.texture(&[[255; 4]]);
+        fixture.floats("TEXCOORD_5", "VEC2", &[0.5; 6]);
+        fixture.floats("TEXCOORD_1", "VEC2", &[0.25; 6]);
+        let [base, glow] = [5, 1].map(|set| json!({"index": texture, "texCoord": set}));
+        fixture.material(json!({"pbrMetallicRoughness": {"baseColorTexture": base}, "emissiveTexture": glow}));
+        let scene = fixture.load();
+        let uv = scene.vertices[0].uv;
+        let at = |slot: Option<TextureSlot>| slot.expect("a texture").coordinate(uv).x;
+        assert_eq!(at(scene.materials[0].base_colour_texture), 0.5);
+        assert_eq!(at(scene.materials[0].emissive_texture), 0.25);
+    }
+
+    #[test]
+    fn a_third_set_of_coordinates_is_noted() {
+        let mut fixture = Fixture::triangle();
+        let texture = fixture.texture(&[[255; 4]]);
+        let info = |set: u32| json!({"index": texture, "texCoord": set});
+        let base = json!({"baseColorTexture": info(0), "metallicRoughnessTexture": info(1)});
+        fixture.material(json!({"pbrMetallicRoughness": base, "emissiveTexture": info(2)}));
+        let scene = fixture.load();
+        assert!(scene.materials[0].emissive_texture.is_none());
+        assert!(scene.notes.iter().any(|note| note.contains("TEXCOORD_2")), "{:?}", scene.notes);
     }
 
     #[test]

@@ -1,17 +1,20 @@
 //! The only place that knows glTF input: a .gltf or .glb file becomes a validated [`Scene`].
 //!
 //! The route: bytes -> `container` (JSON and blob) -> `document` (buffers, checked look-ups) -> `tree` (flattened nodes,
-//! held against a `budget`) -> `material` and `texture` -> `populate` (`geometry` read through `accessor`, then `place`d
-//! in the world; `devices`: lights and cameras) -> `groups`, or `stated_groups` where the file has its own. The gltf crate
-//! gives the typed JSON only: its accessors and its importer can panic on broken files, ours check every range, so that
-//! any file either loads or ends in one [`LoadError`].
+//! held against a `budget`) -> `material` and `texture` -> `populate` (`mesh`: `geometry` read through `accessor`, brought
+//! into its rest pose by `morph` and `skin`, then `place`d in the world; `devices`: lights and cameras) -> `groups`, or
+//! `stated_groups` where the file has its own. `compression` stands behind the document and the geometry: nobody else
+//! knows whether bytes were packed. The gltf crate gives the typed JSON only: its accessors and its importer can panic on
+//! broken files, ours check every range, so that any file either loads or ends in one [`LoadError`].
 //!
-//! Deliberately absent: animation, skinning, morphing, and compressed geometry (Draco, meshopt).
+//! Deliberately absent: animation. Skins and morph targets are shown as the file's nodes and weights place them.
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification" (ISO/IEC 12113:2022) and its extension registry.
 
 mod accessor;
+mod baked_paint;
 mod budget;
+mod compression;
 mod container;
 mod devices;
 mod document;
@@ -21,14 +24,20 @@ mod extension;
 mod fixture;
 mod geometry;
 mod groups;
+mod instancing;
 mod material;
+mod mesh;
+mod morph;
 mod place;
 mod populate;
 mod resource;
+mod skin;
 mod stated_groups;
 mod texture;
 mod tree;
+mod variant;
 
+use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 use gltf::json::{Index, Node, Root};
@@ -37,27 +46,50 @@ pub use error::{Cause, LoadError};
 
 use self::document::Document;
 use self::material::MaterialReader;
+use self::mesh::Meshes;
 use self::populate::Population;
-use self::texture::TextureTable;
 use crate::scene::{MAX_REFLECTANCE, Scene, doctor};
+
+/// What of a file is loaded, where it leaves a choice.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LoadOptions {
+    /// Name of a material variant (KHR_materials_variants); none for the materials worn without.
+    pub variant: Option<String>,
+}
 
 /// Loads a .gltf or .glb file; `FILE#NAME` or `FILE#1` chooses one of its scenes by name or index.
 ///
 /// Errors: one line that names the file and the cause.
 pub fn load(path: &Path) -> Result<Scene, LoadError> {
+    load_with(path, &LoadOptions::default())
+}
+
+/// As [`load`], with choices.
+///
+/// Errors: as [`load`]; there is no such variant.
+pub fn load_with(path: &Path, options: &LoadOptions) -> Result<Scene, LoadError> {
     let (file, wanted) = split_scene_name(path);
     let failed = |cause| LoadError { file: file.display().to_string(), cause };
     let bytes = read_file(&file).map_err(failed)?;
     let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    read_scene(name, &bytes, file.parent(), wanted.as_deref()).map_err(failed)
+    // A file named without a folder lies in the working one.
+    let folder = file.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
+    read_scene(name, &bytes, folder, wanted.as_deref(), options).map_err(failed)
 }
 
 /// Loads a scene from the bytes of a file that needs no others, such as a built-in .glb.
 ///
 /// Errors: as [`load`], with `name` for the file.
 pub fn from_slice(name: &str, bytes: &[u8]) -> Result<Scene, LoadError> {
+    from_slice_with(name, bytes, &LoadOptions::default())
+}
+
+/// As [`from_slice`], with choices.
+///
+/// Errors: as [`load_with`], with `name` for the file.
+pub fn from_slice_with(name: &str, bytes: &[u8], options: &LoadOptions) -> Result<Scene, LoadError> {
     let failed = |cause| LoadError { file: name.to_owned(), cause };
-    read_scene(name.to_owned(), bytes, None, None).map_err(failed)
+    read_scene(name.to_owned(), bytes, None, None, options).map_err(failed)
 }
 
 /// The file, and the scene asked for after `#` unless a file has that very name.
@@ -69,24 +101,41 @@ fn split_scene_name(path: &Path) -> (PathBuf, Option<String>) {
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, Cause> {
+    let unreadable = |error: std::io::Error| Cause::Unreadable(error.to_string());
     match std::fs::metadata(path) {
         Ok(metadata) if metadata.is_dir() => return Err(Cause::Unreadable("it is a folder".to_owned())),
+        Ok(metadata) if metadata.len() > resource::MAX_FILE_BYTES => {
+            return Err(Cause::TooLarge(format!("{} bytes in one file", metadata.len())));
+        }
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Err(Cause::NoSuchFile),
         _ => {}
     }
-    std::fs::read(path).map_err(|error| Cause::Unreadable(error.to_string()))
+    // A pipe or device has no length that could be looked at before.
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    file.take(resource::MAX_FILE_BYTES).read_to_end(&mut bytes).map_err(unreadable)?;
+    Ok(bytes)
 }
 
-fn read_scene(name: String, bytes: &[u8], folder: Option<&Path>, wanted: Option<&str>) -> Result<Scene, Cause> {
+fn read_scene(
+    name: String,
+    bytes: &[u8],
+    folder: Option<&Path>,
+    wanted: Option<&str>,
+    options: &LoadOptions,
+) -> Result<Scene, Cause> {
     let document = Document::parse(bytes, folder)?;
-    let mut scene = Scene { name, ..Scene::default() };
+    let variants = variant::names(&document.root);
+    let chosen = options.variant.as_ref().map(|wanted| variant::index(&variants, wanted)).transpose()?;
+    let mut scene = Scene { name, variants, ..Scene::default() };
     scene.notes.extend(extension::check(&document.root)?);
     let nodes = tree::flatten(&document, &root_nodes(&document, wanted)?)?;
     budget::check(&document, &nodes)?;
-    read_materials(&document, &mut scene)?;
+    let uv_sets = read_materials(&document, &mut scene)?;
 
-    let mut population = Population::new(&document, scene);
-    nodes.iter().try_for_each(|node| population.add(node))?;
+    let meshes = Meshes::new(&document, &nodes, uv_sets, chosen);
+    let mut population = Population::new(&document, &nodes, scene, meshes);
+    nodes.iter().enumerate().try_for_each(|(place, node)| population.add(place, node))?;
     let (mut scene, light_definitions) = population.finish();
     if !stated_groups::assign(&mut scene, &light_definitions, &document.root) {
         groups::assign(&mut scene, &light_definitions, &light_names(&document.root));
@@ -95,13 +144,14 @@ fn read_scene(name: String, bytes: &[u8], folder: Option<&Path>, wanted: Option<
     Ok(scene)
 }
 
-fn read_materials(document: &Document<'_>, scene: &mut Scene) -> Result<(), Cause> {
-    let mut reader = MaterialReader { document, textures: TextureTable::default(), notes: Vec::new() };
+/// Fills in materials and textures; returns the texture coordinate sets that each material wants.
+fn read_materials(document: &Document<'_>, scene: &mut Scene) -> Result<Vec<[u32; 2]>, Cause> {
+    let mut reader = MaterialReader::new(document);
     scene.materials = reader.read_all()?;
     scene.notes.append(&mut reader.notes);
     scene.textures = reader.textures.load(document, &mut scene.notes)?;
     material::drop_missing_data_textures(&mut scene.materials, &scene.textures);
-    Ok(())
+    Ok(reader.uv_sets)
 }
 
 /// Roots of the wanted scene, else of the default one, else of the first, else of all nodes.

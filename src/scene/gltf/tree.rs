@@ -15,6 +15,8 @@ pub(super) struct PlacedNode<'a> {
     pub index: usize,
     /// The node.
     pub node: &'a Node,
+    /// The node above it, as a place in the list of all.
+    pub parent: Option<usize>,
     /// From its space to the world.
     pub world_from_node: DAffine3,
 }
@@ -25,7 +27,7 @@ pub(super) struct PlacedNode<'a> {
 pub(super) fn flatten<'a>(document: &'a Document<'_>, roots: &[Index<Node>]) -> Result<Vec<PlacedNode<'a>>, Cause> {
     let mut walk = Walk { document, is_visited: vec![false; document.root.nodes.len()], placed: Vec::new() };
     for &root in roots {
-        walk.visit(root, DAffine3::IDENTITY, 0)?;
+        walk.visit(root, None, DAffine3::IDENTITY, 0)?;
     }
     Ok(walk.placed)
 }
@@ -37,7 +39,13 @@ struct Walk<'a, 'f> {
 }
 
 impl Walk<'_, '_> {
-    fn visit(&mut self, id: Index<Node>, world_from_parent: DAffine3, depth: usize) -> Result<(), Cause> {
+    fn visit(
+        &mut self,
+        id: Index<Node>,
+        parent: Option<usize>,
+        world_from_parent: DAffine3,
+        depth: usize,
+    ) -> Result<(), Cause> {
         let node = self.document.find(id, "node", || "the node tree".to_owned())?;
         let index = id.value();
         if depth > MAX_DEPTH {
@@ -53,9 +61,10 @@ impl Walk<'_, '_> {
         if !world_from_node.is_finite() {
             return Err(Cause::NotFinite(format!("the transform of node {index}")));
         }
-        self.placed.push(PlacedNode { index, node, world_from_node });
+        let place = Some(self.placed.len());
+        self.placed.push(PlacedNode { index, node, parent, world_from_node });
         let children = node.children.iter().flatten();
-        children.copied().try_for_each(|child| self.visit(child, world_from_node, depth + 1))
+        children.copied().try_for_each(|child| self.visit(child, place, world_from_node, depth + 1))
     }
 }
 

@@ -1,40 +1,62 @@
-//! Bake: preset, start, progress, cancel, and what the last bake took.
+//! Bake: preset, what it means here, start, progress, cancel, and what the last bake took.
 
-use egui::{Button, ProgressBar, RichText, Ui};
+use egui::{ProgressBar, RichText, Sense, Stroke, Ui, pos2, vec2};
 
-use super::{Command, Facts, LightState, clock, grouped, row, theme};
-use crate::bake::Quality;
+use super::certificate::certificate_ui;
+use super::widgets::{clock, grouped, hint, metres, row, wide_button};
+use super::{Command, Facts, LightState, theme};
+use crate::bake::{BakeSettings, Quality};
 use crate::base::progress::Stage;
+use crate::patch::MeshSettings;
+
+/// Height of the curve, points.
+const CURVE_HEIGHT: f32 = 56.0;
+/// Least share of light that the curve shows.
+const CURVE_FLOOR: f32 = 1e-4;
 
 pub fn bake_ui(ui: &mut Ui, quality: &mut Quality, facts: &Facts<'_>, commands: &mut Vec<Command>) {
     match &facts.light {
         &LightState::Working { stage, done, elapsed, is_cancelled } => {
             working_ui(ui, stage, done, is_cancelled, commands);
             row(ui, "Time", clock(elapsed));
-            if stage == Stage::Solve {
-                row(ui, "Unshot light", format!("{:.1} %", 100.0 * (1.0 - done)));
-            }
         }
-        LightState::Stored => {
-            ui.label(RichText::new("The file is a bake: its light is shown as it is stored.").weak());
-        }
+        LightState::Stored => hint(ui, "The file is a bake: its light is shown as it is stored."),
         state => {
             start_ui(ui, quality, facts, commands);
-            outcome_ui(ui, state);
+            if *state == LightState::Dark {
+                ui.label(RichText::new("No light yet: shown in an even work light.").color(theme::WARNING));
+            }
         }
+    }
+    if let LightState::Baked { elapsed } = facts.light {
+        row(ui, "Took", clock(elapsed));
+    }
+    if let Some([_, unshot]) = facts.curve.last() {
+        row(ui, "Unshot light", format!("{:.2} %", 100.0 * unshot));
+        curve_ui(ui, facts.curve);
     }
     if let Some(num_elements) = facts.num_elements {
         row(ui, "Elements", grouped(num_elements));
+    }
+    if let Some(report) = facts.report {
+        certificate_ui(ui, report);
+    }
+    if wide_button(
+        ui,
+        "Save the bake",
+        facts.is_solved,
+        "Writes the light as a standard .glb that opens without a bake",
+    ) {
+        commands.push(Command::SaveBake);
     }
 }
 
 fn working_ui(ui: &mut Ui, stage: Stage, done: f32, is_cancelled: bool, commands: &mut Vec<Command>) {
     let label = RichText::new(format!("{}   {:.0} %", stage.label(), 100.0 * done)).color(egui::Color32::WHITE);
     ui.add(ProgressBar::new(done).text(label).desired_height(20.0));
-    let cancel = Button::new(if is_cancelled { "Ending ..." } else { "Cancel" });
     let can_cancel = !is_cancelled && stage != Stage::Load;
-    let response = ui.vertical_centered_justified(|ui| ui.add_enabled(can_cancel, cancel)).inner;
-    if response.on_hover_text("Ends the bake and keeps the light that is solved").clicked() {
+    let text = if is_cancelled { "Ending ..." } else { "Cancel" };
+    if wide_button(ui, text, can_cancel, "Ends the bake and keeps the light that is solved (B)") {
         commands.push(Command::CancelBake);
     }
 }
@@ -50,24 +72,61 @@ fn start_ui(ui: &mut Ui, quality: &mut Quality, facts: &Facts<'_>, commands: &mu
             ui.selectable_value(quality, preset, label).on_hover_text(hint);
         }
     });
-    let start = Button::new(RichText::new("Bake").strong());
-    let response = ui.vertical_centered_justified(|ui| ui.add_enabled(facts.scene.is_some(), start)).inner;
-    if response.on_hover_text("Solves the light anew (B)").clicked() {
+    if let Some((settings, sizes)) = &facts.next_bake {
+        hint(ui, in_words(settings, sizes));
+    }
+    if wide_button(ui, "Bake", facts.scene.is_some(), "Solves the light anew (B)") {
         commands.push(Command::Bake);
     }
 }
 
-fn outcome_ui(ui: &mut Ui, state: &LightState) {
-    match state {
-        LightState::Baked { elapsed, unshot_share, num_hemicubes, num_patches } => {
-            row(ui, "Took", clock(*elapsed));
-            row(ui, "Unshot light", format!("{:.2} %", 100.0 * unshot_share));
-            row(ui, "Patches", grouped(*num_patches));
-            row(ui, "Hemicubes", grouped(*num_hemicubes));
+/// What settings mean on the open scene.
+fn in_words(settings: &BakeSettings, sizes: &MeshSettings) -> String {
+    format!(
+        "Elements of at most {}, patches of about {}. Shoots until {:.2} % of the reflected light is left, then gathers with \
+         {} rays or hemicubes of {} pixels; penumbrae take {} rays.",
+        metres(sizes.element_size),
+        metres(sizes.patch_size),
+        100.0 * settings.threshold,
+        grouped(settings.hemisphere_rays as usize),
+        settings.hemicube_px,
+        settings.num_penumbra_rays,
+    )
+}
+
+/// Share of unshot light over time, on a logarithmic scale.
+fn curve_ui(ui: &mut Ui, curve: &[[f32; 2]]) {
+    let (response, painter) = ui.allocate_painter(vec2(ui.available_width(), CURVE_HEIGHT), Sense::hover());
+    let frame = response.rect.shrink(2.0);
+    painter.rect_filled(response.rect, 3.0, ui.visuals().extreme_bg_color);
+    let begin = curve.first().map_or(0.0, |point| point[0]);
+    let end = curve.last().map_or(1.0, |point| point[0]);
+    let height = |unshot: f32| unshot.max(CURVE_FLOOR).log10() / CURVE_FLOOR.log10();
+    let line: Vec<egui::Pos2> = curve
+        .iter()
+        .map(|&[seconds, unshot]| {
+            let along = (seconds - begin) / (end - begin).max(1e-6);
+            pos2(frame.left() + along * frame.width(), frame.top() + height(unshot).min(1.0) * frame.height())
+        })
+        .collect();
+    for decade in [0.1, 0.01, 0.001] {
+        let y = frame.top() + height(decade) * frame.height();
+        painter.hline(frame.x_range(), y, Stroke::new(1.0, egui::Color32::from_gray(45)));
+    }
+    painter.line(line, Stroke::new(1.5, theme::ACCENT));
+    response.on_hover_text("Unshot light over time; lines at 10 %, 1 % and 0.1 %");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_words_carry_the_numbers() {
+        let sizes = MeshSettings { element_size: 0.12, patch_size: 1.4 };
+        let words = in_words(&BakeSettings::preset(Quality::Medium), &sizes);
+        for part in ["12 cm", "1.4 m", "0.10 %", "64 pixels"] {
+            assert!(words.contains(part), "{part} in {words}");
         }
-        LightState::Dark => {
-            ui.label(RichText::new("No light yet: shown in an even work light.").color(theme::WARNING));
-        }
-        LightState::Nothing | LightState::Stored | LightState::Working { .. } => {}
     }
 }

@@ -7,8 +7,8 @@ use super::theme;
 /// A subject with its keys and what they do.
 type Subject = (&'static str, &'static [(&'static str, &'static str)]);
 
-/// All keys; two subjects a column.
-const SHEET: [Subject; 4] = [
+/// All keys; so many subjects in each column.
+const SHEET: [Subject; 5] = [
     (
         "Moving",
         &[
@@ -17,8 +17,10 @@ const SHEET: [Subject; 4] = [
             ("F", "walk or fly"),
             ("E Space / Q C", "up / down while flying"),
             ("Wheel", "faster or slower"),
+            ("Ctrl Wheel", "narrower or wider view"),
             ("Home", "the whole scene in view"),
             ("PgUp PgDn", "cameras of the file"),
+            ("1 ... 9", "go to a bookmark, Ctrl sets it"),
         ],
     ),
     (
@@ -26,7 +28,19 @@ const SHEET: [Subject; 4] = [
         &[
             ("Drag", "look around with either button"),
             ("Click", "keep the mouse, Esc gives it back"),
+            ("Alt Drag", "circle round the point under the mouse"),
             ("Arrows", "look around without a mouse"),
+        ],
+    ),
+    (
+        "Asking",
+        &[
+            ("M", "lux meter: a click measures a point"),
+            ("G", "grid: a click measures a flat surface"),
+            ("N", "a click shows what that patch sees"),
+            ("L", "a click selects an object"),
+            ("Enter", "keep the reading"),
+            ("Esc", "back to looking around"),
         ],
     ),
     (
@@ -35,8 +49,9 @@ const SHEET: [Subject; 4] = [
             ("- +", "darker, brighter by a third of a stop"),
             ("X", "automatic exposure"),
             ("T", "tone map"),
-            ("V", "lit, light only, reflectance, normals"),
-            ("1 2", "direct, indirect light"),
+            ("V", "lit, light only, lux, reflectance, normals"),
+            ("J K", "direct, indirect light"),
+            ("R", "trace rays while the camera is still"),
             ("B", "bake, or end the bake"),
         ],
     ),
@@ -47,17 +62,18 @@ const SHEET: [Subject; 4] = [
             ("F11", "full screen"),
             ("F12", "write a picture"),
             ("H F1", "this sheet"),
-            ("Drop a file", "open it"),
+            ("O", "choose a file; or drop one"),
+            ("F5", "read the file again"),
             ("Ctrl Q", "leave"),
         ],
     ),
 ];
 
 pub fn help_ui(ctx: &egui::Context, is_open: &mut bool) {
-    let window = egui::Window::new("Keys").id(Id::unique("keys")).collapsible(false).resizable(false).open(is_open);
+    let window = egui::Window::new("All keys").id(Id::unique("keys")).collapsible(false).resizable(false).open(is_open);
     window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).show(ctx, |ui| {
         ui.horizontal_top(|ui| {
-            for (column, subjects) in SHEET.chunks(2).enumerate() {
+            for (column, subjects) in [&SHEET[..3], &SHEET[3..]].into_iter().enumerate() {
                 ui.vertical(|ui| column_ui(ui, column, subjects));
                 ui.add_space(14.0);
             }
@@ -66,7 +82,7 @@ pub fn help_ui(ctx: &egui::Context, is_open: &mut bool) {
 }
 
 fn column_ui(ui: &mut Ui, column: usize, subjects: &[Subject]) {
-    Grid::new(column).num_columns(2).spacing([18.0, 6.0]).show(ui, |ui| {
+    Grid::new(column).num_columns(2).spacing([18.0, 4.0]).show(ui, |ui| {
         for (subject, keys) in subjects {
             ui.label(theme::title(subject));
             ui.end_row();

@@ -35,7 +35,7 @@ pub struct Trouble {
 pub fn empty_ui(ctx: &egui::Context, free: Rect, light: &LightState) {
     let text = match light {
         LightState::Working { .. } => "Opening ...",
-        _ => "Drop a .glb or .gltf file here",
+        _ => "Drop a .glb or .gltf file here, or press O",
     };
     let place = Area::new(Id::unique("empty")).pivot(Align2::CENTER_CENTER).fixed_pos(free.center());
     place.order(Order::Background).interactable(false).show(ctx, |ui| {
@@ -64,7 +64,7 @@ pub fn trouble_ui(ctx: &egui::Context, trouble: &mut Option<Trouble>, commands: 
     window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).default_width(520.0).show(ctx, |ui| {
         ui.add(egui::Label::new(&shown.text).wrap().selectable(true));
         ui.add_space(6.0);
-        ui.label(RichText::new("Drop another .glb or .gltf file on the window to open it.").weak());
+        ui.label(RichText::new("Drop another .glb or .gltf file on the window, or choose one.").weak());
         ui.add_space(6.0);
         buttons_ui(ui, &shown, trouble, commands);
     });
@@ -78,6 +78,10 @@ fn buttons_ui(ui: &mut Ui, shown: &Trouble, trouble: &mut Option<Trouble>, comma
         if ui.button("Open the built-in scene").clicked() {
             *trouble = None;
             commands.push(Command::OpenBuiltIn);
+        }
+        if ui.button("Choose a file ...").clicked() {
+            *trouble = None;
+            commands.push(Command::ChooseFile);
         }
         if ui.button("Copy the text").clicked() {
             ui.copy_text(format!("{}: {}", shown.title, shown.text));

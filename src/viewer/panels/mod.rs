@@ -3,31 +3,72 @@
 //!
 //! Nothing here touches the window, the device or the scene; each section is a file with one `*_ui` function.
 
+mod advice;
 mod bake;
-mod cameras;
+mod certificate;
+mod command;
+mod facts;
 mod help;
+mod legend;
 mod light;
+mod markers;
+mod measure;
 mod message;
+mod open;
+mod output;
+mod replay;
 mod scene;
 mod shadows;
+mod sight;
+mod statistics;
 mod status;
 pub mod theme;
+mod tour;
 mod view;
+mod views;
+mod widgets;
 
-use std::time::Duration;
+use std::collections::BTreeSet;
 
-use egui::{CollapsingHeader, Rect, RichText, Ui};
-use glam::Vec3;
+use egui::{Rect, RichText, Ui};
 
+pub use command::{Command, TOOLS, Tool};
+pub use facts::{Facts, LightState, MeterFacts};
 pub use message::{Notice, Trouble};
+pub use open::OpenDialog;
+use sight::SightPicture;
+use widgets::section;
 
+use super::memory::Memory;
 use super::settings::LightSettings;
 use crate::bake::Quality;
-use crate::base::progress::Stage;
-use crate::scene::Scene;
+use crate::base::ids::InstanceId;
+use crate::render::Shading;
 
 /// Width of the side panel, points.
-const WIDTH: f32 = 292.0;
+const WIDTH: f32 = 312.0;
+
+/// Pages of the side panel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+pub enum Tab {
+    /// What is shown, and how.
+    #[default]
+    Picture,
+    /// The bake.
+    Solution,
+    /// Measuring, and what patches see.
+    Meter,
+    /// Cameras, objects, files.
+    Place,
+}
+
+/// Pages with their names and meanings.
+const TABS: [(Tab, &str, &str); 4] = [
+    (Tab::Picture, "Picture", "View, light and shadows"),
+    (Tab::Solution, "Solution", "Bake, time machine, advice"),
+    (Tab::Meter, "Meter", "Lux, grids, what a patch sees"),
+    (Tab::Place, "Place", "Cameras, objects, output, files"),
+];
 
 /// What the user has set, and what lies open.
 pub struct Panels {
@@ -35,350 +76,194 @@ pub struct Panels {
     pub light: LightSettings,
     /// Preset of the next bake.
     pub quality: Quality,
-    /// The side panel is shown.
-    pub is_open: bool,
+    /// What is remembered between runs.
+    pub memory: Memory,
+    /// What a click in the picture does.
+    pub tool: Tool,
+    /// Which instances are seen and chosen.
+    pub selection: Selection,
+    /// How grids are laid out.
+    pub grid: GridSettings,
+    /// Form factors of the chosen patch are shown as a heat map.
+    pub shows_heat: bool,
+    /// The time machine.
+    pub replay: ReplaySettings,
     /// The key sheet is shown.
     pub shows_help: bool,
+    /// The user is choosing a file.
+    pub dialog: Option<OpenDialog>,
     /// A line that goes away by itself.
     pub notice: Option<Notice>,
     /// What went wrong, until the user has read it.
     pub trouble: Option<Trouble>,
+    sight: SightPicture,
 }
 
-/// What the panels show.
-pub struct Facts<'a> {
-    /// The open scene.
-    pub scene: Option<&'a Scene>,
-    /// State of its light.
-    pub light: LightState,
-    /// Triangles that carry light; none before they are known.
-    pub num_elements: Option<usize>,
-    /// Eye point, metres.
-    pub position: Vec3,
-    /// Feet on the floor.
-    pub is_walking: bool,
-    /// Speed without running, metres a second.
-    pub pace: f32,
-    /// The mouse looks around until Escape.
-    pub is_captured: bool,
-    /// Frames a second while something moves.
-    pub frame_rate: f32,
-    /// Time that a frame takes, seconds.
-    pub frame_seconds: f32,
-    /// Name of the graphics device.
-    pub adapter: &'a str,
+/// Which instances are seen and chosen.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Selection {
+    /// Not drawn; their light and shadows stay as they were baked.
+    pub hidden: BTreeSet<InstanceId>,
+    /// Tinted in the picture.
+    pub chosen: Option<InstanceId>,
+    /// Only names with this in them are listed.
+    pub filter: String,
 }
 
-/// Where the light of the open scene stands.
-#[derive(Clone, Debug, PartialEq)]
-pub enum LightState {
-    /// Nothing is open.
-    Nothing,
-    /// A scene is read or baked.
-    Working {
-        /// What is being done.
-        stage: Stage,
-        /// Its done share.
-        done: f32,
-        /// Time since it began.
-        elapsed: Duration,
-        /// Its end has been asked for.
-        is_cancelled: bool,
-    },
-    /// The file brought its light.
-    Stored,
-    /// A bake has ended.
-    Baked {
-        /// What it took.
-        elapsed: Duration,
-        /// Share of the light that was never shot.
-        unshot_share: f64,
-        /// Hemicubes that were drawn.
-        num_hemicubes: usize,
-        /// Patches that shoot.
-        num_patches: usize,
-    },
-    /// The last bake failed or never was.
-    Dark,
+/// How grids are laid out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GridSettings {
+    /// Distance between points, metres.
+    pub spacing: f32,
+    /// Height above the surface, metres.
+    pub height: f32,
 }
 
-/// What a panel or a key asks the program to do.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Command {
-    /// Bake the open scene with the preset that is set.
-    Bake,
-    /// End the bake and keep what is solved.
-    CancelBake,
-    /// Go to a camera of the file.
-    Jump(usize),
-    /// Stand back until all is in view.
-    FrameAll,
-    /// Between walking and flying.
-    ToggleWalking,
-    /// Write a picture.
-    Screenshot,
-    /// Open the built-in scene.
-    OpenBuiltIn,
-    /// Bake, or end the bake that runs.
-    ToggleBake,
-    /// Another camera of the file, so many further.
-    StepCamera(isize),
-    /// Brighter by so many thirds of a stop.
-    StepExposure(f32),
-    /// Metered or fixed exposure.
-    ToggleAutoExposure,
-    /// The other tone map.
-    NextToneMap,
-    /// The next way to show surfaces.
-    NextShading,
-    /// Direct light shown or not.
-    ToggleDirect,
-    /// Indirect light shown or not.
-    ToggleIndirect,
-    /// Key sheet shown or not.
-    ToggleHelp,
-    /// Side panel shown or not.
-    TogglePanels,
-    /// Full screen or window.
-    ToggleFullScreen,
+/// Which moment of the recorded bake is shown.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ReplaySettings {
+    /// It is shown in place of the finished light.
+    pub is_on: bool,
+    /// Number of the moment.
+    pub moment: usize,
+    /// What is unshot is added, spread evenly.
+    pub with_ambient: bool,
 }
 
 impl Panels {
-    /// Everything as a new user finds it.
+    /// Everything as the user left it.
     #[must_use]
-    pub fn new(quality: Quality) -> Self {
-        Self { light: LightSettings::default(), quality, is_open: true, shows_help: false, notice: None, trouble: None }
+    pub fn new(quality: Quality, memory: Memory) -> Self {
+        Self {
+            light: LightSettings { lux_scale: memory.lux_scale, ..LightSettings::default() },
+            quality,
+            memory,
+            tool: Tool::Look,
+            selection: Selection::default(),
+            grid: GridSettings { spacing: 0.5, height: 0.0 },
+            shows_heat: true,
+            replay: ReplaySettings::default(),
+            shows_help: false,
+            dialog: None,
+            notice: None,
+            trouble: None,
+            sight: SightPicture::default(),
+        }
     }
 
     /// Lays out all panels; what the user asked for, and what is left for the picture.
     pub fn ui(&mut self, ui: &mut Ui, facts: &Facts<'_>) -> (Vec<Command>, Rect) {
         let mut commands = Vec::new();
         egui::Panel::bottom("status").frame(theme::bar()).show(ui, |ui| status::status_ui(ui, facts));
-        if self.is_open {
+        if self.memory.is_open {
             let side = egui::Panel::right("side").exact_size(WIDTH).resizable(false).frame(theme::side());
             side.show(ui, |ui| self.side_ui(ui, facts, &mut commands));
         }
         let free = ui.available_rect_before_wrap();
-        if facts.scene.is_none() && self.trouble.is_none() {
-            message::empty_ui(ui.ctx(), free, &facts.light);
-        }
+        self.picture_ui(ui, free, facts);
         message::notice_ui(ui.ctx(), &mut self.notice);
         message::trouble_ui(ui.ctx(), &mut self.trouble, &mut commands);
+        if facts.scene.is_some() {
+            tour::tour_ui(ui.ctx(), free, &mut self.memory.has_seen_tour);
+        }
+        open::open_ui(ui.ctx(), &mut self.dialog, &mut commands);
         help::help_ui(ui.ctx(), &mut self.shows_help);
+        self.memory.lux_scale = self.light.lux_scale;
         (commands, free)
     }
 
-    fn side_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
-        egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            let name = facts.scene.map_or("Hemicube", |scene| scene.name.as_str());
-            ui.add(egui::Label::new(RichText::new(name).heading()).truncate());
-            ui.label(RichText::new("H: all keys   P: hide panels").weak());
-            section(ui, "Light", true, |ui| light::light_ui(ui, &mut self.light, commands));
-            section(ui, "Shadows", false, |ui| shadows::shadows_ui(ui, &mut self.light));
-            section(ui, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, facts, commands));
-            section(ui, "View", true, |ui| view::view_ui(ui, &mut self.light, facts, commands));
-            section(ui, "Cameras", true, |ui| cameras::cameras_ui(ui, facts.scene, commands));
-            section(ui, "Scene", false, |ui| scene::scene_ui(ui, facts));
-        });
-    }
-}
-
-fn section(ui: &mut Ui, title: &str, is_open: bool, contents: impl FnOnce(&mut Ui)) {
-    ui.add_space(2.0);
-    ui.separator();
-    CollapsingHeader::new(theme::title(title)).default_open(is_open).show_unindented(ui, |ui| {
-        ui.add_space(2.0);
-        contents(ui);
-        ui.add_space(4.0);
-    });
-}
-
-/// A name at the left, a value at the right.
-fn row(ui: &mut Ui, name: &str, value: impl Into<egui::WidgetText>) {
-    ui.horizontal(|ui| {
-        ui.label(name);
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
-            ui.add(egui::Label::new(value).truncate());
-        });
-    });
-}
-
-/// A whole number with thin gaps between thousands.
-fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push('\u{2009}');
+    /// What lies over the picture.
+    fn picture_ui(&mut self, ui: &mut Ui, free: Rect, facts: &Facts<'_>) {
+        if facts.scene.is_none() && self.trouble.is_none() {
+            message::empty_ui(ui.ctx(), free, &facts.light);
         }
-        text.push(digit);
+        markers::markers_ui(ui, free, &self.light.groups, facts);
+        if self.light.shading == Shading::FalseColour && facts.scene.is_some() {
+            legend::legend_ui(ui, free, &self.light.lux_scale.in_order());
+        }
     }
-    text
-}
 
-/// A duration as `12.3 s` or `2:05 min`.
-fn clock(elapsed: Duration) -> String {
-    let seconds = elapsed.as_secs();
-    if seconds < 60 {
-        format!("{:.1} s", elapsed.as_secs_f32())
-    } else {
-        format!("{}:{:02} min", seconds / 60, seconds % 60)
+    fn side_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+        self.heading_ui(ui, facts, commands);
+        ui.separator();
+        egui::ScrollArea::vertical().id_salt(self.memory.tab).auto_shrink(false).show(ui, |ui| match self.memory.tab {
+            Tab::Picture => self.picture_tab_ui(ui, facts, commands),
+            Tab::Solution => self.solution_tab_ui(ui, facts, commands),
+            Tab::Meter => self.meter_tab_ui(ui, facts, commands),
+            Tab::Place => self.place_tab_ui(ui, facts, commands),
+        });
+    }
+
+    fn heading_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+        ui.horizontal(|ui| {
+            let name = facts.scene.map_or("Hemicube", |scene| scene.name.as_str());
+            ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+                if ui.button("Help").on_hover_text("All keys (H or F1); P hides this panel").clicked() {
+                    commands.push(Command::ToggleHelp);
+                }
+                if ui.button("Open ...").on_hover_text("Choose a file (O)").clicked() {
+                    commands.push(Command::ChooseFile);
+                }
+                ui.with_layout(egui::Layout::left_to_right(egui::Align::Center), |ui| {
+                    ui.add(egui::Label::new(RichText::new(name).heading()).truncate());
+                });
+            });
+        });
+        ui.add_space(2.0);
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 2.0;
+            ui.spacing_mut().button_padding.x = 6.0;
+            for (tool, label, hint) in TOOLS {
+                if ui.selectable_label(self.tool == tool, label).on_hover_text(hint).clicked() {
+                    commands.push(Command::Take(tool));
+                }
+            }
+        });
+        ui.add_space(2.0);
+        ui.columns(TABS.len(), |columns| {
+            for (column, (tab, label, hint)) in columns.iter_mut().zip(TABS) {
+                column.vertical_centered_justified(|ui| {
+                    ui.selectable_value(&mut self.memory.tab, tab, label).on_hover_text(hint);
+                });
+            }
+        });
+    }
+
+    fn picture_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+        let Self { light, memory: Memory { sections, wire, traces_stills, .. }, .. } = self;
+        section(ui, sections, "View", true, |ui| {
+            view::view_ui(ui, light, wire, traces_stills, facts, commands);
+        });
+        section(ui, sections, "Light", true, |ui| light::light_ui(ui, light, commands));
+        section(ui, sections, "Shadows", false, |ui| shadows::shadows_ui(ui, light));
+    }
+
+    fn solution_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+        let sections = &mut self.memory.sections;
+        section(ui, sections, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, facts, commands));
+        section(ui, sections, "Time machine", true, |ui| replay::replay_ui(ui, &mut self.replay, facts, commands));
+        section(ui, sections, "Advice", true, |ui| advice::advice_ui(ui, facts.advice));
+    }
+
+    fn meter_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+        let sections = &mut self.memory.sections;
+        section(ui, sections, "Lux meter", true, |ui| {
+            measure::measure_ui(ui, &mut self.grid, &self.light.groups, self.tool, facts, commands);
+        });
+        section(ui, sections, "View from here", true, |ui| {
+            sight::sight_ui(ui, &mut self.sight, &mut self.shows_heat, self.tool, facts, commands);
+        });
+    }
+
+    fn place_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+        let Self { selection, memory: Memory { sections, picture, recent, .. }, .. } = self;
+        section(ui, sections, "Cameras", true, |ui| views::views_ui(ui, facts, commands));
+        section(ui, sections, "Scene", true, |ui| scene::scene_ui(ui, selection, facts, commands));
+        section(ui, sections, "Output", false, |ui| output::output_ui(ui, picture, facts, commands));
+        section(ui, sections, "Files", false, |ui| open::recent_ui(ui, recent, commands));
+        section(ui, sections, "Statistics", false, |ui| statistics::statistics_ui(ui, facts));
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use egui::{Event, PointerButton, Pos2, RawInput};
-
-    const WINDOW: egui::Vec2 = egui::vec2(1280.0, 720.0);
-
-    fn facts(scene: Option<&Scene>, light: LightState) -> Facts<'_> {
-        Facts {
-            scene,
-            light,
-            num_elements: None,
-            position: Vec3::ZERO,
-            is_walking: true,
-            pace: 2.0,
-            is_captured: false,
-            frame_rate: 60.0,
-            frame_seconds: 0.016,
-            adapter: "test",
-        }
-    }
-
-    /// Panels in a window of [`WINDOW`], fed with events.
-    struct Desk {
-        ctx: egui::Context,
-        panels: Panels,
-    }
-
-    impl Desk {
-        fn new() -> Self {
-            let ctx = egui::Context::default();
-            theme::apply(&ctx);
-            let mut desk = Self { ctx, panels: Panels::new(Quality::Draft) };
-            // Windows and areas know their size after a frame.
-            desk.frame(&facts(None, LightState::Nothing), Vec::new());
-            desk
-        }
-
-        /// Lays out one frame: commands, room for the picture, and the texts that are drawn with their places.
-        fn frame(&mut self, facts: &Facts<'_>, events: Vec<Event>) -> (Vec<Command>, Rect, Vec<(String, Pos2)>) {
-            let screen_rect = Some(Rect::from_min_size(Pos2::ZERO, WINDOW));
-            let input = RawInput { screen_rect, events, ..RawInput::default() };
-            let mut asked = (Vec::new(), Rect::ZERO);
-            let output = self.ctx.run_ui(input, |ui| asked = self.panels.ui(ui, facts));
-            let texts = output.shapes.iter().flat_map(|clipped| texts(&clipped.shape)).collect();
-            output.drop_without_applying_deltas();
-            (asked.0, asked.1, texts)
-        }
-
-        /// Clicks in the middle of the last text that reads `label`; what was asked for.
-        fn click(&mut self, facts: &Facts<'_>, label: &str) -> Vec<Command> {
-            let (_, _, texts) = self.frame(facts, Vec::new());
-            let (_, at) =
-                texts.iter().rfind(|(text, _)| text == label).unwrap_or_else(|| panic!("{label} in {texts:?}"));
-            let button = |pressed| Event::PointerButton {
-                pos: *at,
-                button: PointerButton::Primary,
-                pressed,
-                modifiers: egui::Modifiers::NONE,
-            };
-            self.frame(facts, vec![Event::PointerMoved(*at)]);
-            self.frame(facts, vec![button(true)]);
-            self.frame(facts, vec![button(false)]).0
-        }
-    }
-
-    fn texts(shape: &egui::Shape) -> Vec<(String, Pos2)> {
-        match shape {
-            egui::Shape::Text(text) => vec![(text.galley.text().to_owned(), text.visual_bounding_rect().center())],
-            egui::Shape::Vec(shapes) => shapes.iter().flat_map(texts).collect(),
-            _ => Vec::new(),
-        }
-    }
-
-    fn scene() -> Scene {
-        Scene { name: "hall".into(), light_groups: vec!["lamps".into()], ..Scene::default() }
-    }
-
-    #[test]
-    fn buttons_ask_for_what_they_say() {
-        let (mut desk, scene) = (Desk::new(), scene());
-        let dark = facts(Some(&scene), LightState::Dark);
-        assert_eq!(desk.click(&dark, "Bake"), [Command::Bake]);
-        assert_eq!(desk.click(&dark, "Frame all"), [Command::FrameAll]);
-        assert_eq!(desk.click(&dark, "Fly"), [Command::ToggleWalking]);
-        let working = LightState::Working {
-            stage: Stage::Solve,
-            done: 0.4,
-            elapsed: Duration::from_secs(3),
-            is_cancelled: false,
-        };
-        let mut desk = Desk::new();
-        assert_eq!(desk.click(&facts(Some(&scene), working), "Cancel"), [Command::CancelBake]);
-    }
-
-    #[test]
-    fn a_preset_is_picked_and_a_group_switched_off() {
-        let (mut desk, scene) = (Desk::new(), scene());
-        desk.panels.light.reset_groups(&scene);
-        let dark = facts(Some(&scene), LightState::Dark);
-        desk.click(&dark, "High");
-        assert_eq!(desk.panels.quality, Quality::High);
-        desk.click(&dark, "lamps");
-        assert!(!desk.panels.light.groups[0].is_on);
-    }
-
-    #[test]
-    fn live_shadows_are_switched_on_in_their_section() {
-        let (mut desk, nothing) = (Desk::new(), facts(None, LightState::Nothing));
-        assert_eq!(desk.panels.light.look(true).shadows, None);
-        desk.click(&nothing, "Shadows");
-        // The section takes some frames to unfold.
-        for _ in 0..30 {
-            desk.frame(&nothing, Vec::new());
-        }
-        desk.click(&nothing, "direct light with live shadows");
-        assert!(desk.panels.light.look(true).shadows.is_some());
-    }
-
-    #[test]
-    fn trouble_is_shown_until_it_is_closed() {
-        let mut desk = Desk::new();
-        desk.panels.trouble = Some(Trouble { title: "This file cannot be opened".into(), text: "no such file".into() });
-        let nothing = facts(None, LightState::Nothing);
-        // A window is measured in its first frame and drawn from the second on.
-        desk.frame(&nothing, Vec::new());
-        let (_, _, texts) = desk.frame(&nothing, Vec::new());
-        assert!(texts.iter().any(|(text, _)| text == "no such file"), "{texts:?}");
-        desk.click(&nothing, "Close");
-        assert_eq!(desk.panels.trouble, None);
-    }
-
-    #[test]
-    fn the_picture_gets_what_the_panels_leave() {
-        let (mut desk, nothing) = (Desk::new(), facts(None, LightState::Nothing));
-        let (_, beside, _) = desk.frame(&nothing, Vec::new());
-        assert_eq!((beside.left(), beside.top()), (0.0, 0.0));
-        assert!((beside.right() - (WINDOW.x - WIDTH)).abs() < 1.0 && beside.bottom() < WINDOW.y - 15.0, "{beside}");
-        desk.panels.is_open = false;
-        let (_, alone, _) = desk.frame(&nothing, Vec::new());
-        assert_eq!(alone.right(), WINDOW.x);
-    }
-
-    #[test]
-    fn thousands_are_set_apart() {
-        assert_eq!(grouped(0), "0");
-        assert_eq!(grouped(999), "999");
-        assert_eq!(grouped(1_234_567), "1\u{2009}234\u{2009}567");
-    }
-
-    #[test]
-    fn durations_read_like_a_clock() {
-        assert_eq!(clock(Duration::from_millis(12_340)), "12.3 s");
-        assert_eq!(clock(Duration::from_secs(125)), "2:05 min");
-    }
-}
+mod tests;

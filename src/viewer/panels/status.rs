@@ -6,7 +6,7 @@ use super::{Facts, LightState, theme};
 
 pub fn status_ui(ui: &mut Ui, facts: &Facts<'_>) {
     ui.horizontal(|ui| {
-        let position = facts.position;
+        let position = facts.position();
         let way = if facts.is_walking { "walking" } else { "flying" };
         ui.label(format!("{way}  {:.1} m/s", facts.pace));
         ui.separator();
@@ -18,6 +18,14 @@ pub fn status_ui(ui: &mut Ui, facts: &Facts<'_>) {
         if let LightState::Working { stage, done, .. } = facts.light {
             ui.separator();
             ui.label(RichText::new(format!("{} {:.0} %", stage.label(), 100.0 * done)).color(theme::ACCENT));
+        }
+        if let Some(num_rays) = facts.num_rays {
+            ui.separator();
+            ui.label(RichText::new(format!("traced, {num_rays} rays a pixel")).color(theme::ACCENT));
+        }
+        if facts.meter.is_busy {
+            ui.separator();
+            ui.label(RichText::new("measuring ...").color(theme::ACCENT));
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.monospace(format!("{:3.0} fps  {:5.1} ms", facts.frame_rate, 1e3 * facts.frame_seconds));

@@ -1,34 +1,94 @@
-//! View: what is shown of the surfaces, and how one gets about.
+//! View: what is shown of the surfaces, the scale of false colours, the wire, and how one gets about.
 
-use egui::Ui;
+use egui::{Checkbox, DragValue, Role, Ui};
 
+use super::super::marks::Wire;
 use super::super::settings::{LightSettings, SHADINGS};
+use super::widgets::named;
 use super::{Command, Facts};
+use crate::render::{LuxScale, Shading};
 
-pub fn view_ui(ui: &mut Ui, light: &mut LightSettings, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+/// Largest illuminance of a scale, lux: twice the sun.
+const MAX_LUX: f32 = 200_000.0;
+
+pub fn view_ui(
+    ui: &mut Ui,
+    light: &mut LightSettings,
+    wire: &mut Wire,
+    traces_stills: &mut bool,
+    facts: &Facts<'_>,
+    commands: &mut Vec<Command>,
+) {
     ui.horizontal_wrapped(|ui| {
+        ui.spacing_mut().item_spacing.x = 4.0;
         for (shading, label, hint) in SHADINGS {
             ui.selectable_value(&mut light.shading, shading, label).on_hover_text(format!("{hint} (V)"));
         }
     });
+    if light.shading == Shading::FalseColour {
+        scale_ui(ui, &mut light.lux_scale, facts, commands);
+    }
+    ui.horizontal(|ui| {
+        ui.label("Wire");
+        for (kind, label, hint) in [
+            (Wire::None, "None", "No lines"),
+            (Wire::Elements, "Elements", "Edges of what receives light"),
+            (Wire::Patches, "Patches", "Edges between what shoots light"),
+        ] {
+            ui.selectable_value(wire, kind, label).on_hover_text(hint);
+        }
+    });
     ui.checkbox(&mut light.see_through_backs, "look through backs of walls")
         .on_hover_text("Single-sided walls hide nothing from behind");
+    ui.add_enabled(facts.is_solved, Checkbox::new(traces_stills, "trace rays while still")).on_hover_text(
+        "A still camera turns into a ray-traced picture: sharp shadows, mirrors and glass over the baked light (R)",
+    );
+    moving_ui(ui, facts, commands);
+}
+
+fn scale_ui(ui: &mut Ui, scale: &mut LuxScale, facts: &Facts<'_>, commands: &mut Vec<Command>) {
     ui.horizontal(|ui| {
-        if ui.selectable_label(facts.is_walking, "Walk").on_hover_text("With gravity and walls (F)").clicked()
-            && !facts.is_walking
-        {
-            commands.push(Command::ToggleWalking);
+        ui.label("From");
+        let low = ui.add(DragValue::new(&mut scale.low).range(0.0..=MAX_LUX).speed(1.0).suffix(" lx"));
+        named(&low, Role::SpinButton, "Lowest lux");
+        ui.label("to");
+        let high = ui.add(DragValue::new(&mut scale.high).range(0.0..=MAX_LUX).speed(5.0).suffix(" lx"));
+        named(&high, Role::SpinButton, "Highest lux");
+        let fit = ui.add_enabled(facts.is_solved, egui::Button::new("Fit"));
+        if fit.on_hover_text("Spans the light of this scene").clicked() {
+            commands.push(Command::FitLuxScale);
         }
-        if ui.selectable_label(!facts.is_walking, "Fly").on_hover_text("Through everything (F)").clicked()
-            && facts.is_walking
+    });
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut scale.is_logarithmic, "logarithmic").on_hover_text("Equal ratios are equally far apart");
+        let parts = ui.add(DragValue::new(&mut scale.num_parts).range(0..=20).speed(0.1));
+        named(&parts, Role::SpinButton, "Parts between iso-lux lines");
+        ui.label("parts between lines")
+            .on_hover_text("Lines of equal lux cut the scale into so many parts; 0 draws none");
+    });
+}
+
+fn moving_ui(ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+    ui.horizontal(|ui| {
+        for (label, is_walking, hint) in
+            [("Walk", true, "With gravity and walls (F)"), ("Fly", false, "Through everything (F)")]
         {
-            commands.push(Command::ToggleWalking);
+            let is_so = facts.is_walking == is_walking;
+            if ui.selectable_label(is_so, label).on_hover_text(hint).clicked() && !is_so {
+                commands.push(Command::ToggleWalking);
+            }
         }
         if ui.button("Frame all").on_hover_text("The whole scene in view (Home)").clicked() {
             commands.push(Command::FrameAll);
         }
-        if ui.button("Picture").on_hover_text("Writes a PNG without the panels (F12)").clicked() {
-            commands.push(Command::Screenshot);
+        if let Some(eye) = facts.eye {
+            let mut degrees = eye.fov_y.to_degrees();
+            let angle =
+                ui.add(DragValue::new(&mut degrees).range(10.0..=120.0).speed(0.5).fixed_decimals(0).suffix("°"));
+            named(&angle, Role::SpinButton, "Field of view");
+            if angle.on_hover_text("Field of view, top to bottom (Ctrl and wheel)").changed() {
+                commands.push(Command::SetFieldOfView(degrees));
+            }
         }
     });
 }

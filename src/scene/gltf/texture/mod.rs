@@ -2,27 +2,31 @@
 //!
 //! An image that cannot be had is never fatal: a grey pixel stands in and a note says so.
 
+mod decode;
+
 use std::collections::{BTreeMap, HashMap};
-use std::io::Cursor;
 use std::sync::Arc;
 
 use gltf::json::texture::{MagFilter, WrappingMode};
 use gltf::json::validation::Checked;
 use gltf::json::{self, Index};
-use image::{ImageFormat, ImageReader, Limits};
 use rayon::prelude::*;
 
+use self::decode::Pixels;
 use super::document::Document;
 use super::error::Cause;
 use super::{extension, resource};
 use crate::base::ids::TextureId;
 use crate::scene::{Image, Sampler, Texture, Wrap};
 
-/// Largest image side that is decoded, pixels.
-const MAX_IMAGE_SIDE: u32 = 16_384;
+/// Extensions that name an image of a kind that plain glTF has not, in the order in which they are taken.
+const SOURCE_EXTENSIONS: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
-/// Memory of the largest image.
-const MAX_IMAGE_BYTES: u64 = 4 * (MAX_IMAGE_SIDE as u64).pow(2);
+/// Most bytes of all encoded image files.
+const MAX_ENCODED_BYTES: u64 = 4 << 30;
+
+/// Most pixels of all images together: 4 GiB.
+const MAX_PIXELS: u64 = 1 << 30;
 
 /// Textures in the order in which materials first asked for them.
 #[derive(Default)]
@@ -52,11 +56,12 @@ impl TextureTable {
         let mut sources = BTreeMap::new();
         for &(i, texture) in &textures {
             if let Some(source) = source_of(texture) {
-                sources.insert(source, document.find(texture.source, "image", || format!("texture {i}"))?);
+                let image = Index::new(u32::try_from(source).unwrap_or(u32::MAX));
+                sources.insert(source, document.find(image, "image", || format!("texture {i}"))?);
             }
         }
-        let sources: Vec<_> = sources.into_iter().collect();
-        let decoded: Vec<_> = sources.par_iter().map(|&(i, image)| (i, read_image(document, i, image))).collect();
+        let fetched = fetch_images(document, sources);
+        let decoded: Vec<_> = fetched.into_par_iter().map(|(i, image)| (i, image.and_then(Encoded::decode))).collect();
         let images: HashMap<_, _> = decoded.into_iter().map(|(i, image)| (i, or_stand_in(image, notes))).collect();
         textures
             .into_iter()
@@ -69,9 +74,15 @@ impl TextureTable {
     }
 }
 
-/// Index of the PNG or JPEG image of a texture; the typed model has a sentinel for none.
+/// Index of the image of a texture: the plain one, else one of a kind that an extension brings.
 fn source_of(texture: &json::Texture) -> Option<usize> {
-    Some(texture.source.value()).filter(|&source| source != u32::MAX as usize)
+    // The typed model has a sentinel for none.
+    let plain = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
+    plain.or_else(|| {
+        let extensions = &texture.extensions.as_ref()?.others;
+        let source = SOURCE_EXTENSIONS.iter().find_map(|name| extensions.get(*name)?.get("source")?.as_u64());
+        source.and_then(|source| usize::try_from(source).ok())
+    })
 }
 
 fn sourceless(index: usize, texture: &json::Texture) -> String {
@@ -97,47 +108,59 @@ fn or_stand_in(image: Result<Image, String>, notes: &mut Vec<String>) -> Arc<Ima
     }))
 }
 
-fn read_image(document: &Document<'_>, index: usize, image: &json::Image) -> Result<Image, String> {
-    let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
-    let name = image.name.as_deref().or(uri).map_or_else(|| format!("image {index}"), str::to_owned);
-    let failed = |problem: String| format!("texture image {name:?}: {problem}");
-    let encoded = encoded_bytes(document, index, image).map_err(failed)?;
-    let (format, pixels) = decode(&encoded).map_err(failed)?;
-    Ok(Image {
-        width: pixels.width(),
-        height: pixels.height(),
-        rgba: pixels.into_raw(),
-        mime_type: format.to_mime_type().to_owned(),
-        encoded,
-        name,
-    })
+/// An image before it is decoded.
+struct Encoded {
+    name: String,
+    bytes: Vec<u8>,
 }
 
-fn encoded_bytes(document: &Document<'_>, index: usize, image: &json::Image) -> Result<Vec<u8>, String> {
+impl Encoded {
+    fn failed(name: &str, problem: &str) -> String {
+        format!("texture image {name:?}: {problem}")
+    }
+
+    fn decode(self) -> Result<Image, String> {
+        let Self { name, bytes: encoded } = self;
+        let decoded = decode::decode(&encoded).map_err(|problem| Self::failed(&name, &problem))?;
+        let Pixels { width, height, rgba, mime_type } = decoded;
+        Ok(Image { width, height, rgba, mime_type: mime_type.to_owned(), encoded, name })
+    }
+}
+
+/// Encoded images by index, as long as what they claim to hold fits in memory.
+fn fetch_images(
+    document: &Document<'_>,
+    sources: BTreeMap<usize, &json::Image>,
+) -> Vec<(usize, Result<Encoded, String>)> {
+    let (mut bytes_left, mut pixels_left) = (MAX_ENCODED_BYTES, MAX_PIXELS);
+    let fetch = |(index, image): (usize, &json::Image)| {
+        let uri = image.uri.as_deref().filter(|uri| !uri.starts_with("data:"));
+        let name = image.name.as_deref().or(uri).map_or_else(|| format!("image {index}"), str::to_owned);
+        let fetched = encoded_bytes(document, index, image, &mut bytes_left).and_then(|bytes| {
+            let claimed = decode::claimed_pixels(&bytes)?;
+            pixels_left = pixels_left.checked_sub(claimed).ok_or("all images together are too large")?;
+            Ok(bytes)
+        });
+        let named = |problem: String| Encoded::failed(&name, &problem);
+        (index, fetched.map_err(named).map(|bytes| Encoded { name: name.clone(), bytes }))
+    };
+    sources.into_iter().map(fetch).collect()
+}
+
+fn encoded_bytes(
+    document: &Document<'_>,
+    index: usize,
+    image: &json::Image,
+    bytes_left: &mut u64,
+) -> Result<Vec<u8>, String> {
     match (&image.uri, image.buffer_view) {
-        (Some(uri), _) => resource::fetch(uri, document.folder),
+        (Some(uri), _) => resource::fetch(uri, document.folder, bytes_left),
         (None, Some(view)) => {
             let view = document.view(view, || format!("image {index}"));
             view.map(|(bytes, _)| bytes.to_vec()).map_err(|cause| cause.to_string())
         }
         (None, None) => Err("it has neither a URI nor a buffer view".to_owned()),
     }
-}
-
-fn decode(encoded: &[u8]) -> Result<(ImageFormat, image::RgbaImage), String> {
-    let format = match image::guess_format(encoded) {
-        Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
-        Ok(ImageFormat::WebP) => return Err(format!("WebP is not supported; {}", extension::hint("EXT_texture_webp"))),
-        _ => return Err("it is neither PNG nor JPEG".to_owned()),
-    };
-    let mut limits = Limits::default();
-    limits.max_image_width = Some(MAX_IMAGE_SIDE);
-    limits.max_image_height = Some(MAX_IMAGE_SIDE);
-    limits.max_alloc = Some(MAX_IMAGE_BYTES);
-    let mut reader = ImageReader::with_format(Cursor::new(encoded), format);
-    reader.limits(limits);
-    let pixels = reader.decode().map_err(|error| format!("it cannot be decoded: {error}"))?;
-    Ok((format, pixels.into_rgba8()))
 }
 
 fn sampler(document: &Document<'_>, index: usize, texture: &json::Texture) -> Result<Sampler, Cause> {
@@ -199,8 +222,8 @@ mod tests {
     fn an_image_that_cannot_be_had_turns_grey_with_a_note() {
         let images = [
             (json!({"uri": "no_such.png"}), "no folder"),
-            (json!({"uri": "data:image/png;base64,AAAA"}), "neither PNG nor JPEG"),
-            (json!({"uri": "data:image/webp;base64,UklGRgQAAABXRUJQVlA4IAAA"}), "WebP is not supported; convert"),
+            (json!({"uri": "data:image/png;base64,AAAA"}), "neither PNG, JPEG, WebP nor KTX2"),
+            (json!({"uri": "data:image/webp;base64,UklGRgQAAABXRUJQVlA4IAAA"}), "cannot be decoded"),
             (json!({"uri": "http://example.org/a.png"}), "refused"),
             (json!({}), "neither a URI nor a buffer view"),
             (json!({"bufferView": 99}), "buffer view 99, which does not exist"),
@@ -221,9 +244,9 @@ mod tests {
     #[test]
     fn a_texture_that_exists_only_as_an_extension_is_noted() {
         let mut fixture = Fixture::triangle();
-        fixture.json["textures"] = json!([{"extensions": {"KHR_texture_basisu": {"source": 0}}}]);
+        fixture.json["textures"] = json!([{"extensions": {"EXT_texture_avif": {"source": 0}}}]);
         fixture.material(json!({"emissiveTexture": {"index": 0}}));
         let notes = fixture.load().notes;
-        assert!(notes[0].contains("KHR_texture_basisu") && notes[0].contains("ktxdecompress"), "{notes:?}");
+        assert!(notes[0].contains("EXT_texture_avif") && notes[0].contains("gltf-transform png"), "{notes:?}");
     }
 }

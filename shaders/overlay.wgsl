@@ -1,0 +1,35 @@
+// Overlay: lines and tinted faces over a finished picture, hidden by what stands before them.
+
+// The target's format encodes sRGB itself.
+override TARGET_ENCODES: bool = false;
+// Share of the way to the eye by which marks stand before their own surface; metres where the eye is infinitely far.
+const LIFT: f32 = 1e-3;
+
+struct Varying {
+    @builtin(position) position: vec4f,
+    // Display colour, sRGB, straight alpha.
+    @location(0) colour: vec4f,
+}
+
+// Depth of the scene.
+@vertex
+fn solid(@location(0) position: vec3f) -> @builtin(position) vec4f {
+    return frame.projection_from_world * vec4f(position, 1.0);
+}
+
+// The scene has been drawn already.
+@fragment
+fn unseen() -> @location(0) vec4f {
+    return vec4f(0.0);
+}
+
+@vertex
+fn mark(@location(0) position: vec3f, @location(1) colour: vec4f) -> Varying {
+    let lifted = position + LIFT * (frame.eye.xyz - frame.eye.w * position);
+    return Varying(frame.projection_from_world * vec4f(lifted, 1.0), colour);
+}
+
+@fragment
+fn tint(in: Varying) -> @location(0) vec4f {
+    return vec4f(select(in.colour.rgb, linear_from_srgb(in.colour.rgb), TARGET_ENCODES), in.colour.a);
+}

@@ -1,0 +1,111 @@
+//! The exposure that suits a bake as a whole, whichever way one looks.
+//!
+//! The rule is that of shaders/meter.wgsl, with surfaces in the place of pixels: the mean of the logarithms is shown as
+//! middle grey, unless highlights would burn out.
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+
+use super::BakedScene;
+use crate::base::colour::luminance;
+use crate::base::ids::TriangleId;
+use crate::scene::area_of;
+
+/// Display value of the mean.
+const MIDDLE_GREY: f32 = 0.2;
+/// Share of the lit area that is darker than a highlight.
+const HIGHLIGHT_SHARE: f32 = 0.95;
+/// Display value that a highlight may reach: where tone mapping begins to roll off.
+const HIGHLIGHT: f32 = 0.8;
+/// What is darker than this share of the brightest surface says nothing about the exposure.
+const DARK: f32 = 1e-4;
+
+/// Exposure value: displayed = radiance x 2^EV; 0 where nothing is lit.
+///
+/// Textures count as white, for they are multiplied on later.
+#[must_use]
+pub fn suited(baked: &BakedScene) -> f32 {
+    let mut lit: Vec<(f32, f32)> = (0..baked.scene.triangles.len()).map(|t| luminance_and_area(baked, t)).collect();
+    let brightest = lit.iter().map(|&(luminance, _)| luminance).fold(0.0, f32::max);
+    lit.retain(|&(luminance, area)| luminance > DARK * brightest && area > 0.0);
+    let total: f32 = lit.iter().map(|&(_, area)| area).sum();
+    if lit.is_empty() || total <= 0.0 {
+        return 0.0;
+    }
+    let mean = lit.iter().map(|&(luminance, area)| luminance.log2() * area).sum::<f32>() / total;
+    lit.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut below = 0.0;
+    let highlight = lit.iter().find(|&&(_, area)| {
+        below += area;
+        below >= HIGHLIGHT_SHARE * total
+    });
+    let highlight = highlight.map_or(brightest, |&(luminance, _)| luminance);
+    (MIDDLE_GREY.log2() - mean).min((HIGHLIGHT / highlight).log2())
+}
+
+/// Reflected luminance of a triangle's middle, nit, and its area.
+fn luminance_and_area(baked: &BakedScene, t: usize) -> (f32, f32) {
+    let scene = &baked.scene;
+    let triangle = &scene.triangles[t];
+    let mean = |of: &dyn Fn(usize) -> Vec3| triangle.vertices.iter().map(|&v| of(v as usize)).sum::<Vec3>() / 3.0;
+    let irradiance =
+        mean(&|v| baked.light.groups.iter().map(|group| group.direct[v] + group.indirect[v]).sum::<Vec3>());
+    let paint = mean(&|v| scene.vertices[v].colour.truncate());
+    let material = &scene.materials[triangle.material.index()];
+    let radiance = material.base_colour.truncate() * paint * irradiance.max(Vec3::ZERO) / PI;
+    (luminance(radiance), area_of(scene.corners(TriangleId::new(t))))
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{Vec2, Vec4};
+
+    use super::*;
+    use crate::baked::{GroupLight, VertexLight};
+    use crate::base::ids::{InstanceId, MaterialId};
+    use crate::scene::{Material, Scene, Triangle, Vertex};
+
+    /// Equal triangles of white paint that show these luminances.
+    fn showing(luminances: &[f32]) -> BakedScene {
+        let corner = |c: usize| Vertex {
+            position: [Vec3::ZERO, Vec3::X, Vec3::Y][c],
+            normal: Vec3::Z,
+            uv: [Vec2::ZERO; 2],
+            colour: Vec4::ONE,
+        };
+        let direct = luminances.iter().flat_map(|&luminance| [Vec3::splat(luminance * PI); 3]).collect::<Vec<_>>();
+        let triangle = |t: usize| Triangle {
+            vertices: [0, 1, 2].map(|c| (3 * t + c) as u32),
+            material: MaterialId(0),
+            instance: InstanceId(0),
+            is_back_side: false,
+        };
+        let scene = Scene {
+            vertices: (0..direct.len()).map(|v| corner(v % 3)).collect(),
+            triangles: (0..luminances.len()).map(triangle).collect(),
+            materials: vec![Material::default()],
+            ..Scene::default()
+        };
+        let indirect = vec![Vec3::ZERO; direct.len()];
+        BakedScene { scene, light: VertexLight { groups: vec![GroupLight { direct, indirect }] } }
+    }
+
+    #[test]
+    fn the_mean_is_shown_as_middle_grey() {
+        assert!((suited(&showing(&[10.0, 10.0])).exp2() * 10.0 - MIDDLE_GREY).abs() < 1e-4);
+        assert!((suited(&showing(&[5.0, 20.0, 0.0])).exp2() * 10.0 - MIDDLE_GREY).abs() < 1e-4);
+    }
+
+    #[test]
+    fn highlights_are_kept() {
+        let exposure = suited(&showing(&[1.0, 1.0, 1.0, 1000.0])).exp2();
+        assert!((exposure * 1000.0 - HIGHLIGHT).abs() < 1e-3, "{exposure}");
+    }
+
+    #[test]
+    fn the_dark_has_any_exposure() {
+        assert_eq!(suited(&showing(&[0.0])), 0.0);
+        assert_eq!(suited(&BakedScene::default()), 0.0);
+    }
+}

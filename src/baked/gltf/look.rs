@@ -1,0 +1,57 @@
+//! What viewers that know nothing of stored light show: unlit surfaces in the colour of their light at one exposure.
+//!
+//! COLOR_0 = tone(radiance x 2^EV), where the base colour texture is left to multiply on. Tone mapping is that of our own
+//! pictures, so that both look alike.
+
+use std::f32::consts::PI;
+
+use glam::{Vec3, Vec4};
+
+use crate::baked::VertexLight;
+use crate::scene::{Material, Scene};
+
+/// Light at one exposure.
+#[derive(Clone, Copy)]
+pub(super) struct Look<'a> {
+    /// The light.
+    pub light: &'a VertexLight,
+    /// Displayed = radiance x this.
+    pub exposure: f32,
+}
+
+impl Look<'_> {
+    /// COLOR_0 of a vertex: display-referred linear colour and the alpha of its paint.
+    pub fn colour(&self, scene: &Scene, material: &Material, vertex: u32) -> Vec4 {
+        let v = vertex as usize;
+        let paint = scene.vertices[v].colour;
+        let base = (material.base_colour * paint).truncate();
+        let irradiance: Vec3 = self.light.groups.iter().map(|group| group.direct[v] + group.indirect[v]).sum();
+        let radiance = if material.unlit {
+            base
+        } else if shows_emission(material) {
+            material.emission
+        } else {
+            material.emission + base * irradiance.max(Vec3::ZERO) / PI
+        };
+        neutral(radiance * self.exposure).clamp(Vec3::ZERO, Vec3::ONE).extend(paint.w.clamp(0.0, 1.0))
+    }
+}
+
+/// An emissive texture takes the place of the base colour's: beside it, reflected light does not count.
+pub(super) fn shows_emission(material: &Material) -> bool {
+    material.is_emissive() && material.emissive_texture.is_some() && !material.unlit
+}
+
+/// Khronos PBR Neutral (Khronos 2024) without its offset, as in shaders/tonemap.wgsl.
+fn neutral(colour: Vec3) -> Vec3 {
+    const START: f32 = 0.8;
+    const DESATURATION: f32 = 0.15;
+    let peak = colour.max_element();
+    if peak < START {
+        return colour;
+    }
+    let room = 1.0 - START;
+    let new_peak = 1.0 - room * room / (peak + room - START);
+    let whitening = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
+    (colour * (new_peak / peak)).lerp(Vec3::splat(new_peak), whitening)
+}

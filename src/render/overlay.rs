@@ -1,0 +1,225 @@
+//! Overlay: lines and tinted faces over a finished picture, hidden by what stands before them.
+//!
+//! It draws the scene's depth once more, one sample a pixel, so that a picture without marks costs nothing for them.
+
+use bytemuck::{Pod, Zeroable};
+use glam::Vec3;
+use wgpu::util::DeviceExt;
+
+use super::frame_uniform::{frame_bind_group, frame_layout};
+use super::{Look, View};
+use crate::gpu::scene_buffers::{Faces, GpuVertex};
+use crate::gpu::targets::DEPTH_FORMAT;
+use crate::gpu::{Gpu, SceneBuffers, shaders};
+use crate::scene::AlphaMode;
+
+/// A corner of a mark.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct Mark {
+    /// Metres, in world space.
+    pub position: Vec3,
+    /// As displayed: sRGB with straight alpha.
+    pub colour: [u8; 4],
+}
+
+/// Marks on the device.
+pub struct Overlay {
+    lines: Corners,
+    triangles: Corners,
+}
+
+struct Corners {
+    buffer: wgpu::Buffer,
+    count: u32,
+}
+
+impl Overlay {
+    /// Uploads lines, two corners each, and triangles, three corners each.
+    #[must_use]
+    pub fn new(gpu: &Gpu, lines: &[Mark], triangles: &[Mark]) -> Self {
+        let corners = |marks: &[Mark]| Corners {
+            buffer: gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("overlay"),
+                contents: bytemuck::cast_slice(marks),
+                usage: wgpu::BufferUsages::VERTEX,
+            }),
+            count: marks.len() as u32,
+        };
+        Self { lines: corners(lines), triangles: corners(triangles) }
+    }
+}
+
+/// Draws overlays into pictures of one format.
+pub struct OverlayPass {
+    frame_layout: wgpu::BindGroupLayout,
+    culled: wgpu::RenderPipeline,
+    two_faced: wgpu::RenderPipeline,
+    lines: wgpu::RenderPipeline,
+    triangles: wgpu::RenderPipeline,
+    depth: Option<(wgpu::TextureView, [u32; 2])>,
+}
+
+impl OverlayPass {
+    /// Pipelines for pictures of `output_format`.
+    #[must_use]
+    pub fn new(gpu: &Gpu, output_format: wgpu::TextureFormat) -> Self {
+        let frame_layout = frame_layout(gpu);
+        let module = shaders::OVERLAY.module(&gpu.device);
+        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("overlay"),
+            bind_group_layouts: &[Some(&frame_layout)],
+            immediate_size: 0,
+        });
+        let make = |kind| pipeline(gpu, &layout, &module, output_format, kind);
+        Self {
+            culled: make(Kind::Depth { cull_mode: Some(wgpu::Face::Back) }),
+            two_faced: make(Kind::Depth { cull_mode: None }),
+            lines: make(Kind::Marks(wgpu::PrimitiveTopology::LineList)),
+            triangles: make(Kind::Marks(wgpu::PrimitiveTopology::TriangleList)),
+            frame_layout,
+            depth: None,
+        }
+    }
+
+    /// Draws `overlay` over the picture of `scene` in `target`, which is `size` pixels wide and high.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "where to draw (encoder, target, size) and what (scene, view, look, overlay)"
+    )]
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::TextureView,
+        size: [u32; 2],
+        scene: &SceneBuffers,
+        view: &View,
+        look: &Look,
+        overlay: &Overlay,
+    ) {
+        let depth = match self.depth.take() {
+            Some(last) if last.1 == size => last,
+            _ => (depth_target(gpu, size), size),
+        };
+        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
+        let mut pass = begin(encoder, target, &depth.0);
+        pass.set_bind_group(0, &frame, &[]);
+        // What hides marks.
+        if !scene.batches.is_empty() {
+            pass.set_vertex_buffer(0, scene.vertices.slice(..));
+            pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
+        }
+        for batch in scene.batches.iter().filter(|batch| batch.alpha_mode != AlphaMode::Blend) {
+            let culls = batch.faces == Faces::FrontOfTwins || (batch.faces == Faces::Front && look.cull_back);
+            pass.set_pipeline(if culls { &self.culled } else { &self.two_faced });
+            pass.draw_indexed(batch.indices.clone(), 0, 0..1);
+        }
+        // Tinted faces, and lines on top of them.
+        for (pipeline, corners) in [(&self.triangles, &overlay.triangles), (&self.lines, &overlay.lines)] {
+            if corners.count > 0 {
+                pass.set_pipeline(pipeline);
+                pass.set_vertex_buffer(0, corners.buffer.slice(..));
+                pass.draw(0..corners.count, 0..1);
+            }
+        }
+        drop(pass);
+        self.depth = Some(depth);
+    }
+}
+
+fn depth_target(gpu: &Gpu, size: [u32; 2]) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("overlay depth"),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH_FORMAT,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+        view_formats: &[],
+    });
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+fn begin<'e>(
+    encoder: &'e mut wgpu::CommandEncoder,
+    target: &wgpu::TextureView,
+    depth: &wgpu::TextureView,
+) -> wgpu::RenderPass<'e> {
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some("overlay"),
+        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+            view: target,
+            depth_slice: None,
+            resolve_target: None,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Load, store: wgpu::StoreOp::Store },
+        })],
+        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+            view: depth,
+            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+            stencil_ops: None,
+        }),
+        ..Default::default()
+    })
+}
+
+/// What a pipeline draws.
+#[derive(Clone, Copy)]
+enum Kind {
+    /// The scene, into the depth alone.
+    Depth { cull_mode: Option<wgpu::Face> },
+    /// Lines or triangles over the picture.
+    Marks(wgpu::PrimitiveTopology),
+}
+
+fn pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+    output_format: wgpu::TextureFormat,
+    kind: Kind,
+) -> wgpu::RenderPipeline {
+    const MARK: wgpu::VertexBufferLayout<'_> = wgpu::VertexBufferLayout {
+        array_stride: size_of::<Mark>() as u64,
+        step_mode: wgpu::VertexStepMode::Vertex,
+        attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4],
+    };
+    let (label, vertex, fragment, buffer, writes) = match kind {
+        Kind::Depth { .. } => ("overlay depth", "solid", "unseen", GpuVertex::LAYOUT, wgpu::ColorWrites::empty()),
+        Kind::Marks(_) => ("overlay marks", "mark", "tint", MARK, wgpu::ColorWrites::ALL),
+    };
+    let primitive = match kind {
+        Kind::Depth { cull_mode } => wgpu::PrimitiveState { cull_mode, ..Default::default() },
+        Kind::Marks(topology) => wgpu::PrimitiveState { topology, ..Default::default() },
+    };
+    let constants = [("TARGET_ENCODES", f64::from(u8::from(output_format.is_srgb())))];
+    let blend = Some(wgpu::BlendState::ALPHA_BLENDING);
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(label),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some(vertex),
+            compilation_options: Default::default(),
+            buffers: &[Some(buffer)],
+        },
+        primitive,
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(matches!(kind, Kind::Depth { .. })),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(fragment),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            targets: &[Some(wgpu::ColorTargetState { format: output_format, blend, write_mask: writes })],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}

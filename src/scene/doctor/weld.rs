@@ -1,0 +1,39 @@
+//! Triangles as their shape has them: corners at exactly equal positions are one vertex.
+
+use glam::Vec3;
+
+use crate::scene::Scene;
+
+/// Welded front triangles of a scene; the backs that a bake writes out are skipped.
+pub(super) struct Welded {
+    /// Positions `[w]`, metres.
+    pub positions: Vec<Vec3>,
+    /// Welded corners `[i]`.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+impl Welded {
+    /// Welds a scene.
+    pub fn new(scene: &Scene) -> Self {
+        // Adding zero makes -0 equal +0 in bits.
+        let bits = |v: u32| (scene.vertices[v as usize].position + 0.0).to_array().map(f32::to_bits);
+        let mut order: Vec<u32> = (0..scene.vertices.len() as u32).collect();
+        order.sort_unstable_by_key(|&v| bits(v));
+        let mut number = vec![0; order.len()];
+        let mut positions = Vec::new();
+        for (i, &v) in order.iter().enumerate() {
+            if i == 0 || bits(order[i - 1]) != bits(v) {
+                positions.push(scene.vertices[v as usize].position);
+            }
+            number[v as usize] = positions.len() as u32 - 1;
+        }
+        let fronts = scene.triangles.iter().filter(|triangle| !triangle.is_back_side);
+        let triangles = fronts.map(|triangle| triangle.vertices.map(|v| number[v as usize])).collect();
+        Self { positions, triangles }
+    }
+
+    /// Corner positions of a welded triangle.
+    pub fn corners(&self, i: usize) -> [Vec3; 3] {
+        self.triangles[i].map(|w| self.positions[w as usize])
+    }
+}

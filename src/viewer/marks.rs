@@ -1,0 +1,153 @@
+//! What is drawn over the picture: the wire of elements or patches, a chosen instance, form factors, a shooter.
+
+use std::collections::HashMap;
+
+use glam::Vec3;
+
+use super::solved::Solved;
+use crate::base::ids::{InstanceId, PatchId, TriangleId};
+use crate::render::{Mark, turbo};
+use crate::scene::Scene;
+
+/// Which wire is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+pub enum Wire {
+    /// None.
+    #[default]
+    None,
+    /// Edges of all elements.
+    Elements,
+    /// Edges between patches.
+    Patches,
+}
+
+/// Lines, two corners each, and triangles, three corners each.
+#[derive(Default)]
+pub struct Marks {
+    /// Lines.
+    pub lines: Vec<Mark>,
+    /// Tinted faces.
+    pub triangles: Vec<Mark>,
+}
+
+const WIRE: [u8; 4] = [20, 24, 30, 150];
+const CHOSEN: [u8; 4] = [255, 176, 64, 90];
+const SHOOTER: [u8; 4] = [255, 80, 60, 170];
+const SHOOTER_EDGE: [u8; 4] = [255, 235, 120, 255];
+/// Opacity of the heat map.
+const HEAT_ALPHA: u8 = 225;
+/// What is not seen at all.
+const UNSEEN: [u8; 4] = [24, 24, 28, 170];
+/// Powers of ten that the heat map spans.
+const HEAT_DECADES: f32 = 3.0;
+
+impl Marks {
+    /// Adds the wire; patches are told apart only where the mesh is known.
+    pub fn wire(&mut self, wire: Wire, scene: &Scene, solved: Option<&Solved>) {
+        let patch_of = |t: usize| solved.and_then(|solved| solved.mesh.elements.get(t)).map(|element| element.patch);
+        let part_of = |t: usize| match wire {
+            Wire::Patches => patch_of(t).map(|patch| patch.index()),
+            Wire::None | Wire::Elements => Some(t),
+        };
+        if wire != Wire::None {
+            let all = (0..scene.triangles.len()).map(TriangleId::new);
+            self.lines.extend(borders(scene, all, part_of).into_iter().flatten().map(|p| mark(p, WIRE)));
+        }
+    }
+
+    /// Tints an instance.
+    pub fn chosen(&mut self, scene: &Scene, instance: InstanceId) {
+        let Some(instance) = scene.instances.get(instance.index()) else { return };
+        let triangles = instance.triangles.clone().filter(|&t| !scene.triangles[t].is_back_side);
+        for t in triangles {
+            self.face(scene, TriangleId::new(t), CHOSEN);
+        }
+    }
+
+    /// Tints every element by its `heat` `[e]`, 0..1, on a logarithmic scale.
+    pub fn heat(&mut self, scene: &Scene, heat: &[f32]) {
+        for (e, &heat) in heat.iter().enumerate().take(scene.triangles.len()) {
+            let place = 1.0 + heat.max(1e-9).log10() / HEAT_DECADES;
+            let [r, g, b] = turbo(place);
+            let colour = if heat > 0.0 { [r, g, b, HEAT_ALPHA] } else { UNSEEN };
+            self.face(scene, TriangleId::new(e), colour);
+        }
+    }
+
+    /// Marks the patch that shoots.
+    pub fn shooter(&mut self, solved: &Solved, patch: PatchId) {
+        let (scene, mesh) = (&solved.baked.scene, &solved.mesh);
+        let Some(patch) = mesh.patches.get(patch.index()) else { return };
+        let members = mesh.members_of(patch).iter().map(|element| TriangleId::new(element.index()));
+        let edges = borders(scene, members.clone(), |_| Some(0));
+        self.lines.extend(edges.into_iter().flatten().map(|p| mark(p, SHOOTER_EDGE)));
+        for element in members {
+            self.face(scene, element, SHOOTER);
+        }
+    }
+
+    /// Nothing is to be drawn.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.lines.is_empty() && self.triangles.is_empty()
+    }
+
+    fn face(&mut self, scene: &Scene, triangle: TriangleId, colour: [u8; 4]) {
+        self.triangles.extend(scene.corners(triangle).map(|p| mark(p, colour)));
+    }
+}
+
+fn mark(position: Vec3, colour: [u8; 4]) -> Mark {
+    Mark { position, colour }
+}
+
+/// Edges of `triangles` that separate two parts, each once, and those that end one. Corners meet where they have one place.
+fn borders(
+    scene: &Scene,
+    triangles: impl Iterator<Item = TriangleId>,
+    part_of: impl Fn(usize) -> Option<usize>,
+) -> Vec<[Vec3; 2]> {
+    let key = |p: Vec3| p.to_array().map(f32::to_bits);
+    let mut parts: HashMap<_, (Option<usize>, u32, bool, [Vec3; 2])> = HashMap::new();
+    for triangle in triangles.filter(|t| !scene.triangles[t.index()].is_back_side) {
+        let corners = scene.corners(triangle);
+        let part = part_of(triangle.index());
+        for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j])) {
+            let edge = if key(a) <= key(b) { (key(a), key(b)) } else { (key(b), key(a)) };
+            let found = parts.entry(edge).or_insert((part, 0, false, [a, b]));
+            found.1 += 1;
+            found.2 |= found.0 != part;
+        }
+    }
+    let mut edges: Vec<_> = parts.into_iter().filter(|(_, (_, count, parts, _))| *count == 1 || *parts).collect();
+    // The same wire each time, whatever the order of the map.
+    edges.sort_by_key(|(edge, _)| *edge);
+    edges.into_iter().map(|(_, (.., ends))| ends).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::builtin;
+
+    #[test]
+    fn each_edge_is_drawn_once_and_parts_have_their_border_only() {
+        let scene = builtin::cornell();
+        let all = || (0..scene.triangles.len()).map(TriangleId::new);
+        let every = borders(&scene, all(), Some);
+        let mut seen = std::collections::HashSet::new();
+        let key = |p: Vec3| p.to_array().map(f32::to_bits);
+        assert!(every.iter().all(|[a, b]| seen.insert((key(*a).min(key(*b)), key(*a).max(key(*b))))));
+        let whole = borders(&scene, all(), |_| Some(0));
+        assert!(whole.len() < every.len() && !whole.is_empty(), "{} of {}", whole.len(), every.len());
+    }
+
+    #[test]
+    fn heat_tints_every_element() {
+        let scene = builtin::cornell();
+        let mut marks = Marks::default();
+        marks.heat(&scene, &vec![0.5; scene.triangles.len()]);
+        assert_eq!(marks.triangles.len(), 3 * scene.triangles.len());
+        assert!(!marks.is_empty());
+    }
+}

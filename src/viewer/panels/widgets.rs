@@ -1,0 +1,120 @@
+//! Small things that several panels are made of.
+
+use std::collections::BTreeMap;
+use std::time::Duration;
+
+use egui::{CollapsingHeader, Ui};
+
+use super::theme;
+
+/// A section that folds; `sections` remembers whether it is open.
+pub fn section(
+    ui: &mut Ui,
+    sections: &mut BTreeMap<String, bool>,
+    title: &str,
+    is_open_at_first: bool,
+    contents: impl FnOnce(&mut Ui),
+) {
+    let is_open = sections.get(title).copied().unwrap_or(is_open_at_first);
+    let header = CollapsingHeader::new(theme::title(title)).open(Some(is_open)).show_unindented(ui, |ui| {
+        ui.add_space(2.0);
+        contents(ui);
+    });
+    ui.add_space(2.0);
+    ui.separator();
+    if header.header_response.clicked() {
+        sections.insert(title.to_owned(), !is_open);
+    }
+}
+
+/// A name at the left, a value at the right.
+pub fn row(ui: &mut Ui, name: &str, value: impl Into<egui::WidgetText>) {
+    ui.horizontal(|ui| {
+        ui.label(name);
+        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+            ui.add(egui::Label::new(value).truncate());
+        });
+    });
+}
+
+/// Gives a widget without a text of its own the name that screen readers say.
+pub fn named(response: &egui::Response, role: egui::Role, name: impl ToString) {
+    response.widget_info(|| egui::WidgetInfo::labeled(role, response.enabled(), name.to_string()));
+}
+
+/// A faint line of text that wraps.
+pub fn hint(ui: &mut Ui, text: impl Into<String>) {
+    ui.add(egui::Label::new(egui::RichText::new(text).weak()).wrap());
+}
+
+/// A button as wide as the panel; whether it was pressed.
+pub fn wide_button(ui: &mut Ui, text: &str, is_enabled: bool, hover: &str) -> bool {
+    let button = egui::Button::new(text);
+    let response = ui.vertical_centered_justified(|ui| ui.add_enabled(is_enabled, button)).inner;
+    response.on_hover_text(hover).clicked()
+}
+
+/// A whole number with gaps between thousands.
+#[must_use]
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::with_capacity(digits.len() + digits.len() / 3);
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{2009}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// Lux in at most four figures.
+#[must_use]
+pub fn lux(value: f32) -> String {
+    match value.abs() {
+        v if v >= 100.0 => grouped(value.round().max(0.0) as usize),
+        v if v >= 10.0 => format!("{value:.1}"),
+        _ => format!("{value:.2}"),
+    }
+}
+
+/// Metres, or centimetres where there is less than one.
+#[must_use]
+pub fn metres(length: f32) -> String {
+    if length < 1.0 { format!("{:.0} cm", (100.0 * length).max(1.0)) } else { format!("{length:.1} m") }
+}
+
+/// A duration as `12.3 s` or `2:05 min`.
+#[must_use]
+pub fn clock(elapsed: Duration) -> String {
+    let seconds = elapsed.as_secs();
+    if seconds < 60 {
+        format!("{:.1} s", elapsed.as_secs_f32())
+    } else {
+        format!("{}:{:02} min", seconds / 60, seconds % 60)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn thousands_are_set_apart() {
+        assert_eq!(grouped(0), "0");
+        assert_eq!(grouped(999), "999");
+        assert_eq!(grouped(1_234_567), "1\u{2009}234\u{2009}567");
+    }
+
+    #[test]
+    fn lux_and_lengths_read_like_an_instrument() {
+        assert_eq!((lux(1234.4), lux(56.78), lux(0.456)), ("1\u{2009}234".into(), "56.8".into(), "0.46".into()));
+        assert_eq!((metres(0.123), metres(2.34)), ("12 cm".into(), "2.3 m".into()));
+    }
+
+    #[test]
+    fn durations_read_like_a_clock() {
+        assert_eq!(clock(Duration::from_millis(12_340)), "12.3 s");
+        assert_eq!(clock(Duration::from_secs(125)), "2:05 min");
+    }
+}

@@ -1,0 +1,173 @@
+//! The time machine: a bake recorded shot by shot, to step through forwards and back.
+//!
+//! Shooting is repeated on the finished mesh with a shooter at a time. Kept are the first shots one by one and later ones
+//! ever farther apart, so that the memory is bounded whatever the scene.
+
+use glam::Vec3;
+
+use super::solved::Solved;
+use crate::baked::{GroupLight, VertexLight};
+use crate::base::colour::luminance;
+use crate::base::ids::PatchId;
+use crate::base::progress::Progress;
+use crate::form_factor::hemisphere::Hemispheres;
+use crate::patch::PatchMesh;
+use crate::radiosity::Field;
+use crate::radiosity::progressive::{Progressive, ProgressiveSettings, Solution};
+use crate::radiosity::reconstruct::average;
+use crate::radiosity::sites::Sites;
+use crate::trace::Tracer;
+
+/// Share of the light at which the recording ends.
+const THRESHOLD: f32 = 0.01;
+/// Most shots a patch.
+const MAX_PASSES: usize = 16;
+/// Shots that are kept one by one.
+const SINGLE_SHOTS: usize = 24;
+/// Later moments lie a fifth of the shots until then apart.
+const GROWTH: usize = 5;
+/// Bytes of light to keep.
+const LIGHT_BYTES: usize = 192 << 20;
+/// Bytes of form factors to keep.
+const ROW_BYTES: usize = 256 << 20;
+/// Rays that find the form factors of a shooter.
+const NUM_RAYS: u32 = 512;
+
+/// A recorded bake.
+#[derive(Default)]
+pub struct Recording {
+    /// In the order of time; the first is direct light alone.
+    pub moments: Vec<Moment>,
+    /// Patches, of which all together make a pass.
+    pub num_patches: usize,
+}
+
+/// The light after a shot.
+pub struct Moment {
+    /// Shots until now.
+    pub num_shots: usize,
+    /// Who shot last.
+    pub shooter: Option<PatchId>,
+    /// Share of the reflected light that is still unshot.
+    pub unshot_share: f64,
+    /// Indirect irradiance at the light vertices `[l][g]`.
+    indirect: Field,
+    /// What the unshot light would bring if it were spread evenly `[g]`.
+    ambient: Vec<Vec3>,
+}
+
+impl Recording {
+    /// Shoots once more, patch by patch; none where it was cancelled, or where the scene was not baked here.
+    ///
+    /// # Errors
+    /// The form factors could not be found.
+    pub fn of(solved: &Solved, progress: &dyn Progress) -> anyhow::Result<Option<Self>> {
+        let Some(solution) = &solved.solution else { return Ok(None) };
+        let mesh = &solved.mesh;
+        let tracer = Tracer::new(&solved.scene);
+        let mut method = Hemispheres::new(&tracer, mesh, NUM_RAYS);
+        let settings = ProgressiveSettings {
+            threshold: THRESHOLD,
+            max_shots_a_patch: MAX_PASSES,
+            points_a_patch: 1,
+            patches_a_batch: 1,
+            row_bytes: ROW_BYTES,
+        };
+        let mut solver = Progressive::new(mesh, Sites::new(&solved.scene), solution.direct.clone(), settings);
+        let max_moments = max_moments(mesh, solution.direct.num_groups());
+        let mut moments = vec![Moment::of(mesh, solver.solution(), None, solver.unshot_share())];
+        let mut next = 1;
+        while !solver.is_done() && moments.len() < max_moments {
+            progress.rest();
+            let shooter = brightest(solver.solution());
+            if progress.is_cancelled() || !solver.step(&mut method, progress)? {
+                return Ok(None);
+            }
+            if solver.solution().num_shots >= next || solver.is_done() {
+                moments.push(Moment::of(mesh, solver.solution(), shooter, solver.unshot_share()));
+                next = shot_after(solver.solution().num_shots);
+            }
+        }
+        Ok(Some(Self { moments, num_patches: mesh.patches.len() }))
+    }
+}
+
+impl Moment {
+    fn of(mesh: &PatchMesh, solution: &Solution, shooter: Option<PatchId>, unshot_share: f64) -> Self {
+        Self {
+            num_shots: solution.num_shots,
+            shooter,
+            unshot_share,
+            indirect: average(mesh, &solution.indirect),
+            ambient: solution.ambient_estimate(mesh),
+        }
+    }
+
+    /// The light at this moment on the vertices of the bake: direct light as it was baked and what had been shot, with the
+    /// ambient estimate of the rest where it is wanted.
+    #[must_use]
+    pub fn light(&self, solved: &Solved, with_ambient: bool) -> VertexLight {
+        let of_group = |(g, baked): (usize, &GroupLight)| {
+            let ambient = if with_ambient { self.ambient[g] } else { Vec3::ZERO };
+            let indirect = solved.mesh.light_vertex_of.iter().map(|&l| self.indirect.at(l as usize)[g] + ambient);
+            GroupLight { direct: baked.direct.clone(), indirect: indirect.collect() }
+        };
+        VertexLight { groups: solved.baked.light.groups.iter().enumerate().map(of_group).collect() }
+    }
+}
+
+/// The patch that shoots next: the one with the greatest unshot power, the first of equals.
+fn brightest(solution: &Solution) -> Option<PatchId> {
+    let power = |p: usize| luminance(solution.unshot.total(p));
+    let better = |best: usize, p: usize| if power(p) > power(best) { p } else { best };
+    (0..solution.unshot.num_places()).reduce(better).map(PatchId::new)
+}
+
+/// The next shot to be kept.
+fn shot_after(num_shots: usize) -> usize {
+    if num_shots < SINGLE_SHOTS { num_shots + 1 } else { num_shots + num_shots.div_ceil(GROWTH) }
+}
+
+fn max_moments(mesh: &PatchMesh, num_groups: usize) -> usize {
+    let bytes = mesh.light_vertices.len() * num_groups * size_of::<Vec3>();
+    (LIGHT_BYTES / bytes.max(1)).clamp(4, 256)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::bake::{BakeSettings, Method, Quality, bake};
+    use crate::base::progress::Unwatched;
+    use crate::scene::builtin;
+    use std::sync::Arc;
+
+    #[test]
+    fn a_recording_goes_from_direct_light_to_nearly_all_of_it() {
+        let scene = Arc::new(builtin::cornell());
+        let preset = BakeSettings::preset(Quality::Draft);
+        let settings =
+            BakeSettings { method: Some(Method::Hemisphere), target_elements: 800.0, target_patches: 100.0, ..preset };
+        let done = bake(None, &scene, &settings, &Unwatched).expect("the box is baked");
+        let solved = Solved::of_bake(scene, done, &settings);
+        let recording = Recording::of(&solved, &Unwatched).expect("rays do not fail").expect("it was baked here");
+        let shots: Vec<usize> = recording.moments.iter().map(|moment| moment.num_shots).collect();
+        assert_eq!(shots[..5], [0, 1, 2, 3, 4]);
+        assert!(recording.moments.windows(2).all(|pair| pair[1].unshot_share < pair[0].unshot_share + 1e-6));
+        let total = |moment: &Moment| -> f32 {
+            let light = moment.light(&solved, false);
+            light.groups.iter().flat_map(|group| &group.indirect).map(|value| luminance(*value)).sum()
+        };
+        let baked: f32 =
+            solved.baked.light.groups.iter().flat_map(|group| &group.indirect).map(|value| luminance(*value)).sum();
+        let (first, last) = (&recording.moments[0], recording.moments.last().expect("the end"));
+        assert_eq!(total(first), 0.0);
+        assert!((total(last) / baked - 1.0).abs() < 0.1, "{} of {baked}", total(last));
+        assert!(last.unshot_share <= f64::from(THRESHOLD) && first.shooter.is_none() && last.shooter.is_some());
+    }
+
+    #[test]
+    fn later_shots_lie_ever_farther_apart() {
+        assert_eq!((shot_after(0), shot_after(SINGLE_SHOTS - 1)), (1, SINGLE_SHOTS));
+        assert_eq!(shot_after(100), 120);
+    }
+}

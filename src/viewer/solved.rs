@@ -1,0 +1,78 @@
+//! A solved scene: everything that may be asked of its light without baking again.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+
+use super::settings::GroupDial;
+use crate::bake::measure::{MeasureSettings, Measured, measure};
+use crate::bake::{Bake, BakeSettings, Quality, Report};
+use crate::baked::BakedScene;
+use crate::base::progress::Progress;
+use crate::patch::{MeshError, MeshSettings, PatchMesh};
+use crate::radiosity::progressive::Solution;
+use crate::raytrace::MeasuringPoint;
+use crate::scene::Scene;
+
+/// A solved scene.
+pub struct Solved {
+    /// As it was before the bake; the elements where the file is a bake.
+    pub scene: Arc<Scene>,
+    /// Its elements: triangle `e` of `baked` is element `e`.
+    pub mesh: PatchMesh,
+    /// The elements with their light.
+    pub baked: BakedScene,
+    /// How closely is measured.
+    pub quality: Quality,
+    /// The certificate; none where the file is a bake.
+    pub report: Option<Report>,
+    /// The solution on the elements; none where the file is a bake.
+    pub solution: Option<Solution>,
+}
+
+impl Solved {
+    /// What a bake of `scene` has brought.
+    #[must_use]
+    pub fn of_bake(scene: Arc<Scene>, bake: Bake, settings: &BakeSettings) -> Self {
+        let Bake { baked, report, solution, mesh } = bake;
+        Self { scene, mesh, baked, quality: settings.quality, report: Some(report), solution: Some(solution) }
+    }
+
+    /// A bake that was read from a file.
+    ///
+    /// # Errors
+    /// It has no elements.
+    pub fn of_file(baked: BakedScene) -> Result<Self, MeshError> {
+        // The triangles are the elements: they are not cut again.
+        let uncut = MeshSettings { element_size: f32::INFINITY, patch_size: f32::INFINITY };
+        let mesh = PatchMesh::new(&baked.scene, &uncut)?;
+        let scene = Arc::new(baked.scene.clone());
+        Ok(Self { scene, mesh, baked, quality: Quality::default(), report: None, solution: None })
+    }
+
+    /// Measures as `hemicube measure` does; none where it was cancelled.
+    #[must_use]
+    pub fn measure(&self, points: &[MeasuringPoint], progress: &dyn Progress) -> Option<Vec<Measured>> {
+        let settings = MeasureSettings::preset(self.quality);
+        measure(&self.scene, &self.mesh, &self.baked, points, &settings, progress)
+    }
+
+    /// The light as the dials have it: the stored light, the lamps and the lights of each group times its weight.
+    #[must_use]
+    pub fn dimmed(&self, dials: &[GroupDial]) -> BakedScene {
+        let mut baked = self.baked.clone();
+        let weight = |group: usize| dials.get(group).map_or(Vec3::ONE, GroupDial::weight);
+        for (g, light) in baked.light.groups.iter_mut().enumerate() {
+            light.direct.iter_mut().chain(&mut light.indirect).for_each(|value| *value *= weight(g));
+        }
+        for material in &mut baked.scene.materials {
+            if let Some(group) = material.group {
+                material.emission *= weight(group.index());
+            }
+        }
+        for light in &mut baked.scene.lights {
+            light.intensity *= weight(light.group.index());
+        }
+        baked
+    }
+}

@@ -1,0 +1,124 @@
+//! A still camera: the view turns into the two-pass picture, ray by ray, until something moves.
+
+use glam::Vec3;
+
+use super::camera::Eye;
+use super::collider::Collider;
+use super::errand::{Bearer, Finding};
+use super::settings::GroupDial;
+use super::solved::Solved;
+use crate::base::progress::Progress as _;
+use crate::raytrace::{Ambient, TwoPassSettings, two_pass};
+use crate::render::{Exposure, Look, Shading, develop};
+use crate::scene::{Camera, Scene};
+use crate::trace::Tracer;
+
+/// Rays a pixel at which the picture is as good as it gets.
+pub const MAX_RAYS: u32 = 64;
+
+/// A traced picture.
+pub struct Exposed {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// RGBA bytes as displayed.
+    pub display: Vec<u8>,
+    /// Rays a pixel so far.
+    pub num_rays: u32,
+}
+
+/// What is to be traced.
+pub struct Subject {
+    /// From where.
+    pub camera: Camera,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// How it is shown; its exposure is fixed, so that nothing jumps.
+    pub look: Look,
+    /// How the light groups are dimmed.
+    pub dials: Vec<GroupDial>,
+}
+
+/// Traces pass after pass, one ray a pixel each, and brings the mean after each.
+pub fn trace(bearer: &Bearer, solved: &Solved, wanted: &Subject) {
+    let Subject { camera, size, look, dials } = wanted;
+    let baked = solved.dimmed(dials);
+    let tracer = Tracer::new(&baked.scene);
+    let mut sum = vec![[0.0; 4]; size[0] as usize * size[1] as usize];
+    for pass in 0..MAX_RAYS {
+        let settings = TwoPassSettings { samples: 1, ambient: Ambient::Indirect { final_gather: 0 }, seed: pass };
+        let film = two_pass(&tracer, &baked, camera, *size, &settings, bearer);
+        if bearer.is_cancelled() {
+            return;
+        }
+        add(&mut sum, &film.radiance);
+        let num_rays = pass + 1;
+        let mean = sum.iter().map(|pixel| pixel.map(|channel| channel / num_rays as f32)).collect();
+        let display = develop(*size, mean, look).display;
+        bearer.bring(Finding::Still(Box::new(Exposed { size: *size, display, num_rays })));
+    }
+}
+
+fn add(sum: &mut [[f32; 4]], film: &[[f32; 4]]) {
+    for (sum, pixel) in sum.iter_mut().zip(film) {
+        sum.iter_mut().zip(pixel).for_each(|(sum, channel)| *sum += channel);
+    }
+}
+
+/// The second pass shows the same light as the raster: all of it, on lit surfaces, and the view is not through the back of a
+/// wall, which rays cannot see through.
+#[must_use]
+pub fn suits(look: &Look, eye: &Eye, aspect: f32, collider: &Collider, scene: &Scene) -> bool {
+    let shows_all =
+        look.shading == Shading::Lit && look.direct == 1.0 && look.indirect == 1.0 && look.ambient == Vec3::ZERO;
+    shows_all && !(look.cull_back && looks_through_backs(eye, aspect, collider, scene))
+}
+
+/// Some of a coarse grid of rays meets the back of a single-sided surface.
+fn looks_through_backs(eye: &Eye, aspect: f32, collider: &Collider, scene: &Scene) -> bool {
+    const GRID: [i32; 2] = [8, 5];
+    let is_double = |t: crate::base::ids::TriangleId| scene.material_of(t).double_sided;
+    let mut rays = (-GRID[0]..=GRID[0]).flat_map(|x| (-GRID[1]..=GRID[1]).map(move |y| [x, y]));
+    rays.any(|[x, y]| {
+        let direction = eye.direction([x as f32 / GRID[0] as f32, y as f32 / GRID[1] as f32], aspect);
+        let through = collider.pick(eye.position, direction, is_double).map(|pick| pick.triangle);
+        let stopped = collider.pick(eye.position, direction, |_| true).map(|pick| pick.triangle);
+        through != stopped
+    })
+}
+
+/// The exposure that a traced picture is shown with: that of the raster before it.
+#[must_use]
+pub fn held(look: &Look, metered_ev: Option<f32>) -> Look {
+    let exposure = match (look.exposure, metered_ev) {
+        (Exposure::Auto, Some(ev)) => Exposure::Ev(ev),
+        (exposure, _) => exposure,
+    };
+    Look { exposure, ..look.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::builtin;
+
+    #[test]
+    fn a_view_through_a_wall_stays_drawn() {
+        let scene = builtin::cornell();
+        let collider = Collider::new(&scene);
+        let look = Look::default();
+        let inside = Eye::from_camera(&scene.cameras[0]);
+        assert!(suits(&look, &inside, 1.0, &collider, &scene));
+        let behind = Eye::looking_along(Vec3::new(2.8, 2.7, 12.0), Vec3::NEG_Z);
+        let before = Eye::looking_along(Vec3::new(2.8, 2.7, -12.0), Vec3::Z);
+        assert!(suits(&look, &before, 1.0, &collider, &scene) && !suits(&look, &behind, 1.0, &collider, &scene));
+        assert!(!suits(&Look { direct: 0.0, ..look }, &inside, 1.0, &collider, &scene));
+    }
+
+    #[test]
+    fn a_metered_exposure_is_held() {
+        let look = Look::default();
+        assert_eq!(held(&look, Some(-3.0)).exposure, Exposure::Ev(-3.0));
+        let fixed = Look { exposure: Exposure::Ev(1.0), ..look };
+        assert_eq!(held(&fixed, Some(-3.0)).exposure, Exposure::Ev(1.0));
+    }
+}

@@ -1,0 +1,208 @@
+//! Pictures of the panels, and panels under random input.
+
+use std::time::Duration;
+
+use egui::{Event, PointerButton, Pos2, RawInput, Rect, Vec2};
+use glam::Vec3;
+use hemicube::bake::{BakeSettings, Quality};
+use hemicube::base::sampling::{hash, unit_float};
+use hemicube::gpu::Gpu;
+use hemicube::gpu::readback::read_texture;
+use hemicube::patch::MeshSettings;
+use hemicube::render::{Picture, Shading};
+use hemicube::scene::{Scene, builtin};
+use hemicube::viewer::camera::Eye;
+use hemicube::viewer::memory::Memory;
+use hemicube::viewer::panels::{Facts, LightState, MeterFacts, Panels, Tab, theme};
+use wgpu::{CommandEncoderDescriptor, Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages};
+
+use crate::support::device::gpu;
+use crate::support::snapshot::assert_snapshot;
+
+const WINDOW: [u32; 2] = [1280, 720];
+/// Only the side panel is compared: the rest is the picture's.
+const SIDE: u32 = 312;
+
+fn facts(scene: &Scene) -> Facts<'_> {
+    Facts {
+        scene: Some(scene),
+        light: LightState::Baked { elapsed: Duration::from_secs(3) },
+        num_elements: Some(41_234),
+        eye: Some(Eye::looking_along(Vec3::new(2.8, 1.65, 2.0), Vec3::NEG_Z)),
+        picture_size: [980, 690],
+        is_walking: true,
+        pace: 2.0,
+        is_captured: false,
+        frame_rate: 60.0,
+        frame_seconds: 0.016,
+        adapter: "test",
+        next_bake: Some((BakeSettings::preset(Quality::Medium), MeshSettings { element_size: 0.12, patch_size: 0.5 })),
+        curve: &[[0.1, 1.0], [0.5, 0.2], [1.2, 0.01], [1.6, 0.001]],
+        report: None,
+        advice: &[],
+        is_solved: true,
+        meter: MeterFacts::default(),
+        sight: None,
+        recording: None,
+        is_recording: false,
+        is_writing: false,
+        num_rays: None,
+        sees: &|_| true,
+        bookmarks: vec![1, 3],
+    }
+}
+
+fn panels(scene: &Scene, sections: &[(&str, bool)]) -> Panels {
+    let mut memory = Memory { has_seen_tour: true, ..Memory::default() };
+    memory.sections = sections.iter().map(|&(title, is_open)| (title.to_owned(), is_open)).collect();
+    let mut panels = Panels::new(Quality::Medium, memory);
+    panels.light.reset_groups(scene);
+    panels
+}
+
+fn input(events: Vec<Event>, size: Vec2) -> RawInput {
+    RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), events, ..RawInput::default() }
+}
+
+/// The side panel as it is drawn.
+fn side_picture(gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Picture {
+    let ctx = egui::Context::default();
+    theme::apply(&ctx);
+    let size = WINDOW.map(|side| side as f32).into();
+    let mut painter = egui_wgpu::Renderer::new(
+        &gpu.device,
+        TextureFormat::Rgba8Unorm,
+        egui_wgpu::RendererOptions { dithering: false, ..Default::default() },
+    );
+    let target = gpu.device.create_texture(&TextureDescriptor {
+        label: Some("panels"),
+        size: Extent3d { width: WINDOW[0], height: WINDOW[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: TextureDimension::D2,
+        format: TextureFormat::Rgba8Unorm,
+        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    // Sizes settle in the first frames.
+    for _ in 0..3 {
+        let mut output = ctx.run_ui(input(Vec::new(), size), |ui| {
+            panels.ui(ui, facts);
+        });
+        for (&id, deltas) in &output.textures_delta.set {
+            deltas.iter().for_each(|delta| painter.update_texture(&gpu.device, &gpu.queue, id, delta));
+        }
+        output.textures_delta.clear();
+        let shapes = ctx.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
+        let screen = egui_wgpu::ScreenDescriptor { size_in_pixels: WINDOW, pixels_per_point: 1.0 };
+        let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor { label: None });
+        let mut uploads = painter.update_buffers(&gpu.device, &gpu.queue, &mut encoder, &shapes, &screen);
+        let view = target.create_view(&Default::default());
+        let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("panels"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::BLACK), store: wgpu::StoreOp::Store },
+            })],
+            ..Default::default()
+        });
+        painter.render(&mut pass.forget_lifetime(), &shapes, &screen);
+        uploads.push(encoder.finish());
+        gpu.queue.submit(uploads);
+    }
+    let bytes = read_texture(gpu, &target, 4).expect("read");
+    let row = 4 * WINDOW[0] as usize;
+    let display = bytes.chunks_exact(row).flat_map(|line| &line[row - 4 * SIDE as usize..]).copied().collect();
+    Picture { width: SIDE, height: WINDOW[1], radiance: Vec::new(), display }
+}
+
+#[test]
+fn the_panels_look_as_they_did() {
+    let Some(gpu) = gpu() else { return };
+    let scene = builtin::cornell();
+    for (tab, name) in [
+        (Tab::Picture, "panels_picture"),
+        (Tab::Solution, "panels_solution"),
+        (Tab::Meter, "panels_meter"),
+        (Tab::Place, "panels_place"),
+    ] {
+        let mut panels = panels(&scene, &[]);
+        panels.memory.tab = tab;
+        panels.light.shading = Shading::FalseColour;
+        assert_snapshot(name, &side_picture(gpu, &mut panels, &facts(&scene)));
+    }
+}
+
+/// Random but repeatable numbers.
+struct Dice(u32);
+
+impl Dice {
+    fn number(&mut self) -> f32 {
+        self.0 += 1;
+        unit_float(hash(self.0))
+    }
+
+    fn below(&mut self, limit: usize) -> usize {
+        ((self.number() * limit as f32) as usize).min(limit - 1)
+    }
+}
+
+/// One event out of pointer, wheel, keys and text.
+fn event(dice: &mut Dice, size: Vec2) -> Event {
+    let at = Pos2::new(dice.number() * 1.1 * size.x, dice.number() * 1.1 * size.y);
+    let button = [PointerButton::Primary, PointerButton::Secondary][dice.below(2)];
+    match dice.below(8) {
+        0..=2 => Event::PointerMoved(at),
+        3 | 4 => {
+            Event::PointerButton { pos: at, button, pressed: dice.below(2) == 0, modifiers: egui::Modifiers::NONE }
+        }
+        5 => Event::MouseWheel {
+            unit: egui::MouseWheelUnit::Line,
+            delta: egui::vec2(0.0, 10.0 * dice.number() - 5.0),
+            phase: egui::TouchPhase::Move,
+            source: egui::MouseWheelSource::Wheel,
+            modifiers: egui::Modifiers::NONE,
+        },
+        6 => Event::Text(["7", "-", "lamp", "1e9", "é"][dice.below(5)].to_owned()),
+        _ => Event::Key {
+            key: [egui::Key::Tab, egui::Key::Enter, egui::Key::Escape, egui::Key::ArrowUp, egui::Key::Space]
+                [dice.below(5)],
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: egui::Modifiers::NONE,
+        },
+    }
+}
+
+/// `HEMICUBE_RANDOM_FRAMES` makes it longer.
+#[test]
+fn random_input_never_upsets_the_panels() {
+    let num_frames = std::env::var("HEMICUBE_RANDOM_FRAMES").ok().and_then(|text| text.parse().ok()).unwrap_or(400);
+    let scene = builtin::cornell();
+    let sections = ["Shadows", "Lux meter", "Scene", "Output", "Files", "Statistics"].map(|title| (title, true));
+    let mut panels = panels(&scene, &sections);
+    let ctx = egui::Context::default();
+    theme::apply(&ctx);
+    let mut dice = Dice(0);
+    let mut num_commands = 0;
+    for _ in 0..num_frames {
+        let size = [egui::vec2(1280.0, 720.0), egui::vec2(480.0, 320.0), egui::vec2(1.0, 1.0)]
+            [dice.below(12).saturating_sub(9)];
+        let events = (0..dice.below(4)).map(|_| event(&mut dice, size)).collect();
+        let known = if dice.below(20) == 0 { Facts { scene: None, eye: None, ..facts(&scene) } } else { facts(&scene) };
+        if dice.below(30) == 0 {
+            panels.memory.tab = [Tab::Picture, Tab::Solution, Tab::Meter, Tab::Place][dice.below(4)];
+        }
+        let mut asked = Vec::new();
+        let output = ctx.run_ui(input(events, size), |ui| asked = panels.ui(ui, &known).0);
+        output.drop_without_applying_deltas();
+        num_commands += asked.len();
+        let look = panels.light.look(true);
+        assert!(look.lux_scale.high > look.lux_scale.low && look.lux_scale.low >= 0.0, "{look:?}");
+        assert!(look.group_weights.iter().all(|weight| weight.is_finite() && weight.min_element() >= 0.0), "{look:?}");
+    }
+    assert!(num_commands > 0, "nothing was ever hit");
+}
