@@ -1,7 +1,7 @@
 # Everything one needs to know to run, test and measure Hemicube.
 # On Debian and Ubuntu the targets install what is missing (with sudo if need be); cargo itself is expected.
 
-.PHONY: run test assets bench setup
+.PHONY: run test assets pictures bench setup
 
 run: setup
 	.ci/view
@@ -12,6 +12,10 @@ test: setup
 # Writes assets/*.glb anew from src/scene/builtin.
 assets:
 	UPDATE_ASSETS=1 cargo test --test all assets
+
+# Renders the pictures of README's tour anew.
+pictures: setup
+	.ci/pictures
 
 bench:
 	cargo bench

@@ -2,11 +2,15 @@
 //!
 //! On a machine that others use too, compare the rates a second of processor time (told on Linux).
 //!
-//! `cargo bench --bench rays -- [SCENE.glb] [RAYS]`; without a scene the built-in Cornell box.
+//! `cargo bench --bench rays -- [SCENE.glb] [RAYS]`; without a scene the built-in Cornell box. Where EMBREE_PYTHON names a
+//! Python that has embreex, Embree meets the same rays in the same run, on as many processes as we have threads.
 
+use std::io::Write;
 use std::path::Path;
+use std::process::Command;
 use std::time::Instant;
 
+use anyhow::{Context, bail, ensure};
 use glam::{Vec2, Vec3};
 use hemicube::base::ids::TriangleId;
 use hemicube::base::sampling::{cosine_hemisphere, hash, triangle_from_square, unit_float};
@@ -36,32 +40,90 @@ fn main() -> anyhow::Result<()> {
     println!("{}: {} triangles, tree built in {built:.3} s", scene.name, scene.triangles.len());
     let nearest = |ray: &Ray| tracer.nearest(ray.origin, ray.direction, f32::INFINITY).is_some();
     let blocked = |ray: &Ray| tracer.transmittance(ray.origin, ray.direction, f32::INFINITY) == 0.0;
-    time("nearest hit", &rays, nearest);
-    time("any hit    ", &rays, blocked);
+    let ours = [Rate::measured(&rays, nearest), Rate::measured(&rays, blocked)];
+    let theirs = match std::env::var_os("EMBREE_PYTHON") {
+        Some(python) => embree(Path::new(&python), &scene, &rays)?,
+        None => Vec::new(),
+    };
+    for (number, (what, ours)) in ["nearest hit", "any hit    "].iter().zip(&ours).enumerate() {
+        println!("{what}  {ours}");
+        if let Some(theirs) = theirs.get(number) {
+            println!("   Embree    {theirs}");
+            println!(
+                "    share    {:.2} of Embree's on the wall, {:.2} a processor second",
+                ours.a_second / theirs.a_second,
+                ours.a_busy_second / theirs.a_busy_second
+            );
+        }
+    }
     Ok(())
 }
 
-fn time(what: &str, rays: &[Ray], hits: impl Fn(&Ray) -> bool + Sync) {
-    let mut num_hits = 0;
-    let busy_before = processor_seconds();
-    let mut seconds: Vec<f64> = (0..RUNS)
-        .map(|_| {
-            let start = Instant::now();
-            num_hits = rays.par_iter().with_min_len(4096).filter(|ray| hits(ray)).count();
-            start.elapsed().as_secs_f64()
-        })
-        .collect();
-    let busy = processor_seconds().zip(busy_before).map(|(after, before)| after - before);
-    seconds.sort_by(f64::total_cmp);
-    let millions = rays.len() as f64 / 1e6;
-    let a_busy_second =
-        busy.map_or(String::new(), |busy| format!("{:.2} a processor second, ", millions * RUNS as f64 / busy));
-    println!(
-        "{what}  {:.2} Mrays/s on {} threads, {a_busy_second}{:.3} of the rays hit",
-        millions / seconds[RUNS / 2],
-        rayon::current_num_threads(),
-        num_hits as f64 / rays.len() as f64
-    );
+/// How fast rays were.
+struct Rate {
+    /// Rays a second on all threads.
+    a_second: f64,
+    /// Rays a second of processor time; no number where the system does not tell.
+    a_busy_second: f64,
+    /// Share of the rays that hit.
+    hit_share: f64,
+}
+
+impl std::fmt::Display for Rate {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [wall, busy] = [self.a_second, self.a_busy_second].map(|rate| rate / 1e6);
+        let threads = rayon::current_num_threads();
+        let share = self.hit_share;
+        write!(f, "{wall:.2} Mrays/s on {threads} threads, {busy:.2} a processor second, {share:.4} of the rays hit")
+    }
+}
+
+impl Rate {
+    fn measured(rays: &[Ray], hits: impl Fn(&Ray) -> bool + Sync) -> Self {
+        let mut num_hits = 0;
+        let busy_before = processor_seconds();
+        let mut seconds: Vec<f64> = (0..RUNS)
+            .map(|_| {
+                let start = Instant::now();
+                num_hits = rays.par_iter().with_min_len(4096).filter(|ray| hits(ray)).count();
+                start.elapsed().as_secs_f64()
+            })
+            .collect();
+        let busy = processor_seconds().zip(busy_before).map_or(f64::NAN, |(after, before)| after - before);
+        seconds.sort_by(f64::total_cmp);
+        let num_rays = rays.len() as f64;
+        Self {
+            a_second: num_rays / seconds[RUNS / 2],
+            a_busy_second: num_rays * RUNS as f64 / busy,
+            hit_share: num_hits as f64 / num_rays,
+        }
+    }
+}
+
+/// Embree's rates for the nearest and for any hit.
+fn embree(python: &Path, scene: &Scene, rays: &[Ray]) -> anyhow::Result<Vec<Rate>> {
+    let corners = (0..scene.triangles.len()).flat_map(|t| scene.corners(TriangleId::new(t)));
+    let lines = rays.iter().flat_map(|ray| [ray.origin, ray.direction]);
+    let counts = [scene.triangles.len() as u32, rays.len() as u32].map(u32::to_le_bytes);
+    let numbers = corners.chain(lines).flat_map(|v| v.to_array()).flat_map(f32::to_le_bytes);
+    let mut file = tempfile::NamedTempFile::new()?;
+    file.write_all(&counts.concat())?;
+    file.write_all(&numbers.collect::<Vec<u8>>())?;
+    let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("benches/peers/embree_rays.py");
+    let answer = Command::new(python)
+        .arg(script)
+        .arg(file.path())
+        .args([rayon::current_num_threads().to_string(), RUNS.to_string()])
+        .output()
+        .with_context(|| python.display().to_string())?;
+    ensure!(answer.status.success(), "{}: {}", python.display(), String::from_utf8_lossy(&answer.stderr));
+    let text = String::from_utf8(answer.stdout)?;
+    let rate = |line: &str| -> anyhow::Result<Rate> {
+        let numbers: Vec<f64> = line.split_whitespace().map(str::parse).collect::<Result<_, _>>()?;
+        let [a_second, a_busy_second, hit_share] = numbers[..] else { bail!("not three numbers: {line}") };
+        Ok(Rate { a_second, a_busy_second, hit_share })
+    };
+    text.lines().map(rate).collect()
 }
 
 /// Time that the processor has spent in this program, all threads together; none where the system does not tell.

@@ -9,6 +9,7 @@ mod floors;
 mod form_factors;
 mod loader;
 mod meshing;
+mod mirrors;
 mod panels;
 mod pictures;
 mod radiosity;

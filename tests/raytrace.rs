@@ -31,7 +31,8 @@ fn assert_close(estimate: Vec3, error: Vec3, exact: Vec3) {
 
 /// Mean radiance of a picture.
 fn mean(film: &Film) -> Vec3 {
-    film.radiance.iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).sum::<Vec3>() / film.radiance.len() as f32
+    let radiance = film.radiance();
+    radiance.iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).sum::<Vec3>() / radiance.len() as f32
 }
 
 fn by_paths(scene: &Scene, camera: &Camera, settings: &PathSettings) -> Film {

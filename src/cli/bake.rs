@@ -15,7 +15,8 @@ use crate::render::Exposure;
 /// Options of `hemicube bake`.
 #[derive(Args, Debug)]
 pub struct BakeArgs {
-    /// Scene to bake: .glb or .gltf (FILE#NAME chooses one of its scenes), builtin:gallery or builtin:cornell.
+    /// Scene to bake: .glb or .gltf (FILE#NAME chooses one of its scenes), or builtin:gallery,
+    /// builtin:cornell or builtin:mirrors.
     #[arg(default_value = "builtin:gallery")]
     pub scene: PathBuf,
     /// Which materials it wears.

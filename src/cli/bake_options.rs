@@ -100,14 +100,14 @@ pub fn hemicube_size(text: &str) -> Result<u32, String> {
     }
 }
 
-/// Loads a scene: a file, or `builtin:gallery`, `builtin:cornell`.
+/// Loads a scene: a file, or a built-in one, `builtin:NAME`.
 ///
 /// # Errors
 /// The file cannot be loaded or has no such variant, or there is no such built-in scene.
 pub fn load(path: &Path, wanted: &VariantOption) -> Result<Scene> {
     match path.to_str().and_then(|text| text.strip_prefix(builtin::PREFIX)) {
         Some(name) => builtin::by_name(name)
-            .with_context(|| format!("there is no built-in scene {name}; there are {}", builtin::NAMES.join(" and "))),
+            .with_context(|| format!("there is no built-in scene {name}; there are {}", builtin::NAMES.join(", "))),
         None => Ok(gltf::load_with(path, &LoadOptions { variant: wanted.variant.clone() })?),
     }
 }

@@ -20,8 +20,8 @@ use crate::trace::Tracer;
 /// Options of `hemicube measure`.
 #[derive(Args, Debug)]
 pub struct MeasureArgs {
-    /// Scene to measure in: .glb or .gltf, baked or not (FILE#NAME chooses one of its scenes), builtin:gallery or
-    /// builtin:cornell.
+    /// Scene to measure in: .glb or .gltf, baked or not (FILE#NAME chooses one of its scenes), or builtin:gallery,
+    /// builtin:cornell or builtin:mirrors.
     pub scene: PathBuf,
     /// Which materials it wears.
     #[command(flatten)]

@@ -4,6 +4,7 @@ pub mod bake;
 pub mod bake_options;
 pub mod form_factors;
 pub mod info;
+mod judge;
 pub mod measure;
 mod patch_view;
 pub mod ray_options;

@@ -7,6 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::{Vec2, Vec3, Vec3Swizzles as _};
 
 use super::bake_options::{BakeOptions, VariantOption, bake_device, lit_scene, load, positive};
+use super::judge::judge;
 use super::patch_view::{patch_viewpoint, view_from_patch};
 use super::ray_options::{RayOptions, RendererName};
 use super::shadow_options::{ShadowOptions, compare_shadows};
@@ -14,14 +15,14 @@ use crate::baked::{self, BakedScene, VertexLight};
 use crate::gpu::Gpu;
 use crate::raytrace::MeasuringPoint;
 use crate::render::picture::check_size;
-use crate::render::{Exposure, FileKind, Look, Picture, Raster, compare, develop, picture};
+use crate::render::{Exposure, FileKind, Look, Picture, Raster, develop, picture};
 use crate::scene::{Camera, Scene};
 
 /// Options of `hemicube render`.
 #[derive(Args, Debug)]
 pub struct RenderArgs {
-    /// Scene to draw: .glb or .gltf, baked or not (FILE#NAME chooses one of its scenes), builtin:gallery or
-    /// builtin:cornell.
+    /// Scene to draw: .glb or .gltf, baked or not (FILE#NAME chooses one of its scenes), or builtin:gallery,
+    /// builtin:cornell or builtin:mirrors.
     #[arg(default_value = "builtin:gallery")]
     pub scene: PathBuf,
     /// Which materials it wears.
@@ -54,7 +55,8 @@ pub struct RenderArgs {
     /// How the picture is made.
     #[command(flatten)]
     pub rays: RayOptions,
-    /// Compares the picture with this one (.png or .exr) and fails where they differ too much.
+    /// Compares the picture with this one (.png or .exr), writes what an eye sees of the difference to IMG-difference.png,
+    /// and fails where they differ too much.
     #[arg(long, value_name = "IMG")]
     pub reference: Option<PathBuf>,
     /// Largest relative root mean square error against the reference.
@@ -124,15 +126,15 @@ pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
             let baked = first_pass(scene, args, is_quiet)?;
             let look = look(args, &baked);
             let film = args.rays.two_pass(&baked, &camera, args.size.0, args.lighting(), look.ambient, is_quiet)?;
-            develop(film.size, film.radiance, &look)
+            develop(film.size(), film.radiance(), &look)
         }
         RendererName::Path => {
             let film = args.rays.path_traced(&scene, &camera, args.size.0, args.lighting(), is_quiet)?;
-            develop(film.size, film.radiance, &Look { exposure: args.exposure, ..Look::default() })
+            develop(film.size(), film.radiance(), &Look { exposure: args.exposure, ..Look::default() })
         }
     };
     picture.save(&args.output)?;
-    reference.map_or(Ok(()), |reference| judge(&picture, &reference, args, is_quiet))
+    reference.map_or(Ok(()), |reference| judge(&picture, &reference, &args.output, args.threshold, is_quiet))
 }
 
 /// A picture drawn by the GPU.
@@ -203,25 +205,6 @@ fn mean_radiance(light: &VertexLight) -> Vec3 {
     let num_vertices = light.groups.first().map_or(0, |group| group.direct.len()).max(1);
     let total: Vec3 = light.groups.iter().flat_map(|group| group.direct.iter().chain(&group.indirect)).sum();
     if total == Vec3::ZERO { Vec3::ONE } else { total / (num_vertices as f32 * std::f32::consts::PI) }
-}
-
-/// Tells how far the picture is from the reference, and fails where that is too far.
-fn judge(picture: &Picture, reference: &Raster, args: &RenderArgs, is_quiet: bool) -> Result<()> {
-    let difference = compare(&Raster::of(picture, reference.kind), reference)?;
-    let told = format!(
-        "relative error {:.4}, mean {:+.2} %, {:.2} % of the pixels look different",
-        difference.relative_rmse,
-        100.0 * difference.mean_difference,
-        100.0 * difference.perceptible_share
-    );
-    // A picture that holds a value that is no number is no good either.
-    if difference.relative_rmse.is_nan() || difference.relative_rmse > args.threshold {
-        bail!("{} differs from the reference: {told} (threshold {})", args.output.display(), args.threshold);
-    }
-    if !is_quiet {
-        eprintln!("{}: {told}", args.output.display());
-    }
-    Ok(())
 }
 
 fn size(text: &str) -> Result<Size, String> {

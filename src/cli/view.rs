@@ -11,8 +11,8 @@ use crate::viewer::{self, ViewerOptions};
 /// Options of the viewer.
 #[derive(Args, Debug)]
 pub struct ViewArgs {
-    /// Scene to open: .glb or .gltf, also a baked one (FILE#NAME chooses one of its scenes), builtin:gallery or
-    /// builtin:cornell [default: builtin:gallery].
+    /// Scene to open: .glb or .gltf, also a baked one (FILE#NAME chooses one of its scenes), or builtin:NAME
+    /// [default: builtin:gallery].
     pub scene: Option<PathBuf>,
     /// How to bake a scene that brings no light.
     #[command(flatten)]

@@ -1,8 +1,8 @@
-//! The picture that rays add up to, tile by tile on all cores.
+//! The picture that rays add up to, tile by tile on all cores, pass by pass as long as somebody looks.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
 use super::path::{Chance, Ray};
@@ -15,16 +15,20 @@ use crate::scene::{Camera, Projection};
 /// Pixels that one core takes at a time, across and down.
 const TILE: u32 = 16;
 
-/// A traced picture, row by row from the top.
+/// A traced picture in the making, row by row from the top.
+///
+/// Passes add up: one of 16 samples is what four of 4 samples are.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
-    /// Pixels across and down.
-    pub size: [u32; 2],
-    /// Linear radiance before exposure, premultiplied by the fourth channel, the share of the pixel that is covered.
-    pub radiance: Vec<[f32; 4]>,
-    /// Squared standard error of each pixel's luminance; 0 with a single sample.
-    pub variance: Vec<f32>,
+    size: [u32; 2],
+    samples: u32,
+    /// Sums of radiance and coverage `[pixel][half]`: samples of even and of odd numbers are independent, and how far their
+    /// means are apart tells the error of both together.
+    sums: Vec<[Vec4; 2]>,
 }
+
+/// What a pass adds to pixels, by their number.
+type Tile = Vec<(u32, [Vec4; 2])>;
 
 /// How well a picture is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,31 +40,58 @@ pub struct FilmNoise {
 }
 
 impl Film {
-    /// Traces `samples` rays a pixel through a box filter. What `radiance` finds along a ray from the eye is averaged; none
-    /// is the open. Pixels that were not reached when the work was cancelled are empty.
-    pub(super) fn trace(
+    /// A picture of `size` pixels without a sample.
+    #[must_use]
+    pub fn new(size: [u32; 2]) -> Self {
+        Self { size, samples: 0, sums: vec![[Vec4::ZERO; 2]; size[0] as usize * size[1] as usize] }
+    }
+
+    /// Pixels across and down.
+    #[must_use]
+    pub fn size(&self) -> [u32; 2] {
+        self.size
+    }
+
+    /// Rays a pixel so far.
+    #[must_use]
+    pub fn samples(&self) -> u32 {
+        self.samples
+    }
+
+    /// Linear radiance before exposure, premultiplied by the fourth channel, the share of the pixel that is covered; empty
+    /// without a sample.
+    #[must_use]
+    pub fn radiance(&self) -> Vec<[f32; 4]> {
+        let count = self.samples.max(1) as f32;
+        self.sums.iter().map(|[even, odd]| ((*even + *odd) / count).to_array()).collect()
+    }
+
+    /// Adds `samples` rays a pixel through a box filter: what `radiance` finds along a ray from the eye; none is the open.
+    /// False where it was cancelled: the picture is then as it was before.
+    pub(super) fn refine(
+        &mut self,
         camera: &Camera,
-        size: [u32; 2],
         samples: u32,
         seed: u32,
         progress: &dyn Progress,
         radiance: impl Fn(Ray, &mut Sampler) -> Option<Vec3> + Sync,
-    ) -> Self {
-        let eye = Eye::new(camera, size);
-        let tiles = [size[0].div_ceil(TILE), size[1].div_ceil(TILE)];
+    ) -> bool {
+        let eye = Eye::new(camera, self.size);
+        let numbers = self.samples..self.samples + samples;
+        let tiles = [self.size[0].div_ceil(TILE), self.size[1].div_ceil(TILE)];
         let num_tiles = tiles[0] * tiles[1];
         let num_done = AtomicUsize::new(0);
-        let traced: Vec<Vec<(u32, Pixel)>> = (0..num_tiles)
+        let traced: Option<Vec<Tile>> = (0..num_tiles)
             .into_par_iter()
             .map(|tile| {
                 progress.rest();
                 let [left, top] = [TILE * (tile % tiles[0]), TILE * (tile / tiles[0])];
-                let columns = left..(left + TILE).min(size[0]);
-                let pixels = (top..(top + TILE).min(size[1])).flat_map(|y| columns.clone().map(move |x| [x, y]));
-                let pixels = pixels.take_while(|_| !progress.is_cancelled());
+                let columns = left..(left + TILE).min(self.size[0]);
+                let pixels = (top..(top + TILE).min(self.size[1])).flat_map(|y| columns.clone().map(move |x| [x, y]));
                 let pixel = |[x, y]: [u32; 2]| {
-                    let number = y * size[0] + x;
-                    (number, Pixel::trace(&eye, [x, y], samples, hash(seed) ^ number, &radiance))
+                    let number = y * self.size[0] + x;
+                    let seen = || sums(&eye, [x, y], numbers.clone(), hash(seed) ^ number, &radiance);
+                    (!progress.is_cancelled()).then(|| (number, seen()))
                 };
                 let pixels = pixels.map(pixel).collect();
                 let num_done = num_done.fetch_add(1, Ordering::Relaxed) + 1;
@@ -68,68 +99,54 @@ impl Film {
                 pixels
             })
             .collect();
-        let mut film = Self::empty(size);
-        for (number, pixel) in traced.into_iter().flatten() {
-            film.radiance[number as usize] = pixel.radiance;
-            film.variance[number as usize] = pixel.variance;
+        let Some(traced) = traced else { return false };
+        for (number, [even, odd]) in traced.into_iter().flatten() {
+            let sums = &mut self.sums[number as usize];
+            *sums = [sums[0] + even, sums[1] + odd];
         }
-        film
+        self.samples += samples;
+        true
     }
 
-    fn empty(size: [u32; 2]) -> Self {
-        let num_pixels = size[0] as usize * size[1] as usize;
-        Self { size, radiance: vec![[0.0; 4]; num_pixels], variance: vec![0.0; num_pixels] }
+    /// Squared standard error of a pixel's luminance; 0 with a single sample.
+    fn variance(&self, [even, odd]: &[Vec4; 2]) -> f32 {
+        if self.samples < 2 {
+            return 0.0;
+        }
+        let counts = [self.samples.div_ceil(2), self.samples / 2].map(|count| count as f32);
+        let apart = *even / counts[0] - *odd / counts[1];
+        0.25 * luminance(apart.truncate()).powi(2)
     }
 
     /// How well the picture is known; 0 where it is dark.
     #[must_use]
     pub fn noise(&self) -> FilmNoise {
-        let luminances = self.radiance.iter().map(|&[r, g, b, _]| f64::from(luminance(Vec3::new(r, g, b))));
+        let luminances = self.radiance().into_iter().map(|[r, g, b, _]| f64::from(luminance(Vec3::new(r, g, b))));
         let (sum, power) = luminances.fold((0.0, 0.0), |(sum, power), y| (sum + y, power + y * y));
-        let variance: f64 = self.variance.iter().map(|&variance| f64::from(variance)).sum();
+        let variance: f64 = self.sums.iter().map(|sums| f64::from(self.variance(sums))).sum();
         let ratio = |error: f64, whole: f64| if whole > 0.0 { (error / whole) as f32 } else { 0.0 };
         FilmNoise { pixel: ratio(variance.sqrt(), power.sqrt()), mean: ratio(variance.sqrt(), sum) }
     }
 }
 
-/// One pixel of a [`Film`].
-struct Pixel {
-    radiance: [f32; 4],
-    variance: f32,
-}
-
-impl Pixel {
-    /// Two halves with independent samples: how far they are apart tells the error of their mean.
-    fn trace(
-        eye: &Eye<'_>,
-        pixel: [u32; 2],
-        samples: u32,
-        seed: u32,
-        radiance: &impl Fn(Ray, &mut Sampler) -> Option<Vec3>,
-    ) -> Self {
-        let half = |number: u32, count: u32| {
-            let (mut sum, mut covered) = (Vec3::ZERO, 0.0);
-            for index in 0..count {
-                let mut sampler = Sampler::new(seed ^ (number << 31), index);
-                let ray = eye.ray(pixel, sampler.square());
-                if let Some(found) = radiance(ray, &mut sampler) {
-                    sum += found;
-                    covered += 1.0;
-                }
-            }
-            sum.extend(covered)
-        };
-        let counts = [samples.div_ceil(2), samples / 2];
-        let [first, second] = [half(0, counts[0]), half(1, counts[1])];
-        let mean = (first + second) / samples as f32;
-        let variance = if counts[1] == 0 {
-            0.0
-        } else {
-            let apart = first / counts[0] as f32 - second / counts[1] as f32;
-            0.25 * luminance(apart.truncate()).powi(2)
-        };
-        Self { radiance: mean.to_array(), variance }
+/// Sums over the even and over the odd samples of one pixel.
+fn sums(
+    eye: &Eye<'_>,
+    pixel: [u32; 2],
+    samples: std::ops::Range<u32>,
+    seed: u32,
+    radiance: &impl Fn(Ray, &mut Sampler) -> Option<Vec3>,
+) -> [Vec4; 2] {
+    let mut sums = [Vec4::ZERO; 2];
+    for sample in samples {
+        let half = sample % 2;
+        let mut sampler = Sampler::new(seed ^ (half << 31), sample / 2);
+        let ray = eye.ray(pixel, sampler.square());
+        if let Some(found) = radiance(ray, &mut sampler) {
+            sums[half as usize] += found.extend(1.0);
+        }
     }
+    sums
 }
 
 /// Where rays through pixels come from.
@@ -171,6 +188,19 @@ mod tests {
         Camera::looking_at("test", Vec3::ZERO, Vec3::NEG_Z, std::f32::consts::FRAC_PI_2)
     }
 
+    fn film(
+        size: [u32; 2],
+        passes: &[u32],
+        seed: u32,
+        radiance: impl Fn(Ray, &mut Sampler) -> Option<Vec3> + Sync,
+    ) -> Film {
+        let mut film = Film::new(size);
+        for &samples in passes {
+            assert!(film.refine(&camera(), samples, seed, &Unwatched, &radiance));
+        }
+        film
+    }
+
     #[test]
     fn rays_go_through_their_pixels() {
         let camera = camera();
@@ -186,9 +216,9 @@ mod tests {
         // Two values as likely as each other scatter by half their distance.
         let samples = 64;
         let coin = |_, sampler: &mut Sampler| Some(Vec3::splat(2.0 * (sampler.bits() % 2) as f32));
-        let film = Film::trace(&camera(), [64, 64], samples, 1, &Unwatched, coin);
+        let film = film([64, 64], &[samples], 1, coin);
         let expected = 1.0 / samples as f32;
-        let variance = film.variance.iter().sum::<f32>() / film.variance.len() as f32;
+        let variance = film.sums.iter().map(|sums| film.variance(sums)).sum::<f32>() / film.sums.len() as f32;
         assert!((variance / expected - 1.0).abs() < 0.1, "{variance} for {expected}");
         let noise = film.noise();
         assert!((noise.mean * 64.0 / expected.sqrt() - 1.0).abs() < 0.1, "{noise:?}");
@@ -197,16 +227,26 @@ mod tests {
     #[test]
     fn a_seed_gives_the_same_picture_each_time_and_another_one_another() {
         let random = |_, sampler: &mut Sampler| Some(Vec3::splat(sampler.number()));
-        let film = |seed| Film::trace(&camera(), [40, 20], 3, seed, &Unwatched, random);
+        let film = |seed| film([40, 20], &[3], seed, random);
         assert_eq!(film(1), film(1));
         assert_ne!(film(1), film(2));
     }
 
     #[test]
-    fn what_is_open_is_not_covered_and_a_cancelled_picture_is_empty() {
-        let film =
-            Film::trace(&camera(), [4, 2], 8, 0, &Unwatched, |ray, _| (ray.direction.x > 0.0).then_some(Vec3::ONE));
-        assert_eq!((film.radiance[0], film.radiance[3]), ([0.0; 4], [1.0; 4]));
+    fn many_passes_add_up_to_one() {
+        // Sums of whole numbers are exact in any order.
+        let random = |_, sampler: &mut Sampler| Some(Vec3::splat((sampler.bits() % 64) as f32));
+        assert_eq!(film([20, 10], &[1, 3, 2], 5, random), film([20, 10], &[6], 5, random));
+    }
+
+    #[test]
+    fn what_is_open_is_not_covered() {
+        let film = film([4, 2], &[8], 0, |ray, _| (ray.direction.x > 0.0).then_some(Vec3::ONE));
+        assert_eq!((film.radiance()[0], film.radiance()[3]), ([0.0; 4], [1.0; 4]));
+    }
+
+    #[test]
+    fn a_cancelled_pass_leaves_the_picture_as_it_was() {
         struct Stopped(Cancel);
         impl Progress for Stopped {
             fn report(&self, _: Stage, _: f32) {}
@@ -214,8 +254,10 @@ mod tests {
                 self.0.is_cancelled()
             }
         }
-        let stopped = Stopped(Cancel::default());
+        let (stopped, mut picture) = (Stopped(Cancel::default()), film([4, 2], &[2], 0, |_, _| Some(Vec3::ONE)));
+        let before = picture.clone();
         stopped.0.cancel();
-        assert_eq!(Film::trace(&camera(), [4, 2], 8, 0, &stopped, |_, _| Some(Vec3::ONE)), Film::empty([4, 2]));
+        assert!(!picture.refine(&camera(), 2, 0, &stopped, |_, _| Some(Vec3::ONE)));
+        assert_eq!(picture, before);
     }
 }

@@ -142,11 +142,11 @@ impl Place {
             .map(|arrival| {
                 let cosine = self.normal.dot(arrival.to_light).max(0.0);
                 let passing = if cosine > 0.0 {
-                    paths.tracer.transmittance(self.origin, arrival.to_light, arrival.distance)
+                    paths.passing(self.origin, arrival.to_light, arrival.distance).share
                 } else {
-                    0.0
+                    Vec3::ZERO
                 };
-                arrival.irradiance * (cosine * passing)
+                arrival.irradiance * passing * cosine
             })
             .sum()
     }

@@ -1,12 +1,14 @@
 //! The lights of a scene as rays see them: emissive triangles to aim at, and punctual lights.
 
+use std::f32::consts::PI;
+
 use glam::Vec3;
 
 use super::light_tree::{LightBounds, LightTree};
 use super::sampler::Sampler;
 use crate::base::colour::luminance;
 use crate::base::ids::TriangleId;
-use crate::base::sampling::{r2, triangle_from_square};
+use crate::base::sampling::{cosine_hemisphere, r2, triangle_from_square};
 use crate::scene::{Arrival, Scene, area_of, normal_of};
 
 /// Places of a triangle at which the texture of its glow is looked up to guess its power.
@@ -17,6 +19,8 @@ pub(super) struct Lights<'a> {
     scene: &'a Scene,
     emitters: Vec<Emitter>,
     tree: LightTree,
+    /// Luminous powers over pi `[e]`, each with those before it.
+    power_until: Vec<f32>,
     /// Emitter `[t]` that a triangle is, or [`NO_EMITTER`].
     emitter_of: Vec<u32>,
 }
@@ -29,6 +33,17 @@ struct Emitter {
     normal: Vec3,
     area: f32,
     is_two_sided: bool,
+}
+
+/// Light that leaves an emissive triangle.
+pub(super) struct Emission {
+    pub point: Vec3,
+    /// Unit normal of the side that it leaves.
+    pub normal: Vec3,
+    /// Unit vector.
+    pub direction: Vec3,
+    /// Luminous flux per channel, if this were all the light there is.
+    pub flux: Vec3,
 }
 
 /// A point on an emissive triangle, as seen from a place.
@@ -49,7 +64,8 @@ impl<'a> Lights<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
         let candidates = (0..scene.triangles.len()).map(TriangleId::new);
         let shining = candidates.filter(|&t| !scene.triangles[t.index()].is_back_side);
-        let (mut emitters, mut bounds) = (Vec::new(), Vec::new());
+        let (mut emitters, mut bounds, mut power_until) = (Vec::new(), Vec::new(), Vec::new());
+        let mut whole = 0.0;
         let mut emitter_of = vec![NO_EMITTER; scene.triangles.len()];
         for triangle in shining.filter(|&t| scene.material_of(t).is_emissive()) {
             let radiance = mean_radiance(scene, triangle);
@@ -60,10 +76,12 @@ impl<'a> Lights<'a> {
             let (area, normal) = (area_of(corners), normal_of(corners));
             let is_two_sided = scene.material_of(triangle).double_sided;
             emitter_of[triangle.index()] = emitters.len() as u32;
+            whole += radiance * area * if is_two_sided { 2.0 } else { 1.0 };
+            power_until.push(whole);
             bounds.push(LightBounds::of_triangle(corners, normal, radiance * area, is_two_sided));
             emitters.push(Emitter { triangle, corners, normal, area, is_two_sided });
         }
-        Self { scene, tree: LightTree::new(&bounds), emitters, emitter_of }
+        Self { scene, tree: LightTree::new(&bounds), power_until, emitters, emitter_of }
     }
 
     /// A point on one of the emissive triangles, those that bring most light being the likeliest; none where it does not
@@ -88,6 +106,27 @@ impl<'a> Lights<'a> {
             direction,
             radiance: surface.emission * surface.opacity,
             density: probability * offset.length_squared() / (emitter.area * cosine),
+        })
+    }
+
+    /// Light that leaves one of the emissive triangles, the mightiest being the likeliest; none where nothing emits.
+    pub(super) fn emit(&self, sampler: &mut Sampler) -> Option<Emission> {
+        let whole = *self.power_until.last()?;
+        let number = sampler.number() * whole;
+        let chosen = self.power_until.partition_point(|&power| power <= number).min(self.emitters.len() - 1);
+        let emitter = &self.emitters[chosen];
+        let power = self.power_until[chosen] - chosen.checked_sub(1).map_or(0.0, |before| self.power_until[before]);
+        let weights = triangle_from_square(sampler.square());
+        let [a, b, c] = emitter.corners;
+        let num_sides = if emitter.is_two_sided { 2.0 } else { 1.0 };
+        let is_back = emitter.is_two_sided && sampler.number() < 0.5;
+        let normal = if is_back { -emitter.normal } else { emitter.normal };
+        let surface = self.scene.surface_at(emitter.triangle, weights);
+        Some(Emission {
+            point: a * weights.x + b * weights.y + c * weights.z,
+            normal,
+            direction: cosine_hemisphere(normal, sampler.square()),
+            flux: surface.emission * (surface.opacity * PI * emitter.area * num_sides * whole / power),
         })
     }
 

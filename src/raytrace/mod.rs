@@ -3,33 +3,38 @@
 //! [`path_traced`] and [`irradiance()`] are the truth, by unbiased paths; [`two_pass()`] shows a bake with traced direct
 //! light and mirrors. Units and conventions are those of radiosity: surfaces are single-sided unless their material says
 //! otherwise, a back blocks light and is black, and diffuse light is sent on from the geometric surface. Deliberately
-//! absent: the GPU, exposure and tone mapping (a picture here is linear radiance), light that a mirror throws on a
-//! diffuse surface in the second pass.
+//! absent: the GPU, exposure and tone mapping (a picture here is linear radiance), light of punctual lights that a mirror
+//! throws.
 
+mod direct;
 mod film;
 mod gather;
 mod irradiance;
 mod light_tree;
 mod lights;
+mod mirrors;
+mod normal_map;
 mod path;
+mod photons;
 mod sampler;
 mod settings;
 mod specular;
 mod stored;
 mod surface;
+mod thrown;
 mod two_pass;
 
 pub use film::{Film, FilmNoise};
 pub use gather::{gathered_irradiance, stored_irradiance};
 pub use irradiance::{Irradiance, MeasuringPoint, irradiance};
 pub use settings::{Ambient, PathSettings, TwoPassSettings};
-pub use two_pass::two_pass;
+pub use two_pass::{SecondPass, two_pass};
 
 use crate::base::progress::Progress;
 use crate::scene::Camera;
 use crate::trace::Tracer;
 
-/// A path-traced picture, unbiased; what was not reached when it was cancelled is empty.
+/// A path-traced picture, unbiased; without a sample where it was cancelled.
 #[must_use]
 pub fn path_traced(
     tracer: &Tracer<'_>,
@@ -39,5 +44,7 @@ pub fn path_traced(
     progress: &dyn Progress,
 ) -> Film {
     let paths = path::PathTracer::new(tracer, settings.max_bounces, settings.has_specular);
-    Film::trace(camera, size, settings.samples, settings.seed, progress, |ray, sampler| paths.seen(ray, sampler))
+    let mut film = Film::new(size);
+    film.refine(camera, settings.samples, settings.seed, progress, |ray, sampler| paths.seen(ray, sampler));
+    film
 }

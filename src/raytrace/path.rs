@@ -1,22 +1,20 @@
 //! Path tracing: unbiased light along a ray, the truth that the other methods are judged by.
 //!
 //! At every diffuse surface light is sampled twice: at the lamps (next-event estimation) and by the path itself; each
-//! lamp's light is shared between the two by the power heuristic. Punctual lights can only be aimed at; mirrors and panes
-//! only be followed.
+//! lamp's light is shared between the two by the power heuristic. Punctual lights can only be aimed at, also through
+//! panes; mirrors can only be followed: what a mirror throws of a punctual light is left out.
 //!
 //! Sources: Kajiya 1986, "The Rendering Equation"; Veach 1997, "Robust Monte Carlo Methods for Light Transport
 //! Simulation", chapter 9.
-
-use std::f32::consts::FRAC_1_PI;
 
 use glam::Vec3;
 
 use super::lights::Lights;
 use super::sampler::Sampler;
-use super::surface::Surface;
+use super::surface::{Surface, Way};
 use crate::base::ids::TriangleId;
 use crate::base::sampling::{hash, unit_float};
-use crate::scene::{AlphaMode, Arrival, Scene};
+use crate::scene::{AlphaMode, Scene};
 use crate::trace::{Hit, Tracer};
 
 /// Height of a ray's origin above its surface, as a share of the scene's extent: above rounding, below detail.
@@ -31,6 +29,7 @@ pub(super) struct PathTracer<'a> {
     pub lights: Lights<'a>,
     max_bounces: u32,
     has_specular: bool,
+    pub has_panes: bool,
     height: f32,
     has_blending: bool,
 }
@@ -53,6 +52,8 @@ pub(super) enum Chance {
     Only,
     /// Lamps are sampled too, from a surface with this normal; density per steradian.
     Among { normal: Vec3, density: f32 },
+    /// It goes on through a pane from a surface that has looked for lamps behind panes itself.
+    Aimed,
 }
 
 /// Radiance that arrives along a ray.
@@ -64,6 +65,16 @@ pub(super) struct Arriving {
     pub reflected: Vec3,
 }
 
+impl Chance {
+    /// The chance of a ray that has passed a pane.
+    pub(super) fn behind_pane(self) -> Self {
+        match self {
+            Chance::Among { .. } => Chance::Aimed,
+            other => other,
+        }
+    }
+}
+
 impl<'a> PathTracer<'a> {
     pub(super) fn new(tracer: &'a Tracer<'a>, max_bounces: u32, has_specular: bool) -> Self {
         let scene = tracer.scene();
@@ -73,6 +84,7 @@ impl<'a> PathTracer<'a> {
             lights: Lights::new(scene),
             max_bounces,
             has_specular,
+            has_panes: has_specular && scene.materials.iter().any(|material| material.transmission > 0.0),
             height: HEIGHT * (high - low).max_element(),
             has_blending: scene.materials.iter().any(|material| material.alpha_mode == AlphaMode::Blend),
         }
@@ -90,13 +102,17 @@ impl<'a> PathTracer<'a> {
     /// What the ray meets; surfaces that blend are met as often as they are opaque.
     pub(super) fn meet(&self, ray: &Ray, sampler: &mut Sampler) -> Option<Hit> {
         let mut hit = self.nearest(ray.origin, ray.direction, sampler)?;
-        while matches!(ray.chance, Chance::Eye) && !hit.is_front && !self.scene().material_of(hit.triangle).double_sided
-        {
+        while matches!(ray.chance, Chance::Eye) && !hit.is_front && !self.has_two_sides(hit.triangle) {
             let passed = hit.distance + self.height;
             hit = self.nearest(ray.origin + passed * ray.direction, ray.direction, sampler)?;
             hit.distance += passed;
         }
         Some(hit)
+    }
+
+    fn has_two_sides(&self, triangle: TriangleId) -> bool {
+        let material = self.scene().material_of(triangle);
+        material.double_sided || self.has_panes && material.transmission > 0.0
     }
 
     fn nearest(&self, origin: Vec3, direction: Vec3, sampler: &mut Sampler) -> Option<Hit> {
@@ -126,8 +142,8 @@ impl<'a> PathTracer<'a> {
     fn arriving_from(&self, mut ray: Ray, mut met: Option<Hit>, sampler: &mut Sampler) -> Arriving {
         let mut light = Arriving::default();
         let mut throughput = Vec3::ONE;
-        for bounce in 0.. {
-            let Some(hit) = met else { break };
+        let mut bounce = 0;
+        while let Some(hit) = met {
             let surface = Surface::at(self.scene(), &ray, &hit, self.has_specular);
             if surface.emission != Vec3::ZERO {
                 let emitted = throughput * surface.emission * self.path_share(&ray, &hit);
@@ -139,14 +155,16 @@ impl<'a> PathTracer<'a> {
             light.reflected += throughput * self.direct_beside_path(&surface, sampler);
             let Some(scattered) = surface.scatter(sampler) else { break };
             throughput *= scattered.throughput;
-            let chance = match scattered.diffuse_density {
-                Some(density) => Chance::Among { normal: surface.normal, density },
-                None => Chance::Only,
+            let chance = match scattered.way {
+                Way::Diffuse { density } => Chance::Among { normal: surface.normal, density },
+                Way::Reflected => Chance::Only,
+                Way::Passed => ray.chance.behind_pane(),
             };
             ray = self.onward(&surface, scattered.direction, chance);
             if bounce >= MIN_BOUNCES && !survives(&mut throughput, sampler) {
                 break;
             }
+            bounce += u32::from(!matches!(scattered.way, Way::Passed));
             met = self.meet(&ray, sampler);
         }
         light
@@ -162,91 +180,17 @@ impl<'a> PathTracer<'a> {
     pub(super) fn path_share(&self, ray: &Ray, hit: &Hit) -> f32 {
         match ray.chance {
             Chance::Eye | Chance::Only => 1.0,
+            Chance::Aimed => 0.0,
             Chance::Among { normal, density } => {
                 let at_lamps = self.lights.density(ray.origin, normal, ray.direction, hit.triangle, hit.distance);
                 power_heuristic(density, at_lamps)
             }
         }
     }
-
-    /// Radiance towards the viewer of light straight from the lights: from every punctual one, and from one place on an
-    /// emissive triangle.
-    pub(super) fn direct(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
-        let place = self.above(surface.position, surface.geometric);
-        let punctual: Vec3 = self.lights.punctual(place).map(|arrival| self.reflected(surface, place, &arrival)).sum();
-        punctual + self.reflected_of_emitters(surface, place, |_| 0.0, sampler)
-    }
-
-    /// As [`Self::direct`], from one of the punctual lights, and without the share of the emissive triangles that falls to
-    /// the path.
-    fn direct_beside_path(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
-        let place = self.above(surface.position, surface.geometric);
-        let mut radiance = Vec3::ZERO;
-        if self.lights.has_punctual()
-            && let Some((arrival, probability)) = self.lights.choose_punctual(place, surface.normal, sampler)
-        {
-            radiance += self.reflected(surface, place, &arrival) / probability;
-        }
-        radiance + self.reflected_of_emitters(surface, place, |direction| surface.diffuse_density(direction), sampler)
-    }
-
-    /// Radiance towards the viewer of a punctual light, with its highlight and its shadow.
-    fn reflected(&self, surface: &Surface, place: Vec3, arrival: &Arrival) -> Vec3 {
-        let cosine = surface.normal.dot(arrival.to_light);
-        if cosine <= 0.0 || arrival.to_light.dot(surface.geometric) <= 0.0 {
-            return Vec3::ZERO;
-        }
-        let mut share = surface.reflectance * (FRAC_1_PI * cosine);
-        if let Some(specular) = &surface.specular {
-            share += specular.highlight(surface.to_viewer, arrival.to_light);
-        }
-        let unhidden = share * arrival.irradiance;
-        if unhidden == Vec3::ZERO {
-            return Vec3::ZERO;
-        }
-        unhidden * self.tracer.transmittance(place, arrival.to_light, arrival.distance)
-    }
-
-    /// Radiance towards the viewer of the emissive triangles, reflected diffusely.
-    fn reflected_of_emitters(
-        &self,
-        surface: &Surface,
-        place: Vec3,
-        path_density: impl Fn(Vec3) -> f32,
-        sampler: &mut Sampler,
-    ) -> Vec3 {
-        if !self.lights.has_emitters() || surface.reflectance == Vec3::ZERO {
-            return Vec3::ZERO;
-        }
-        let irradiance = self.emitter_irradiance(place, surface.normal, surface.geometric, path_density, sampler);
-        surface.reflectance * FRAC_1_PI * irradiance
-    }
-
-    /// Irradiance from the emissive triangles on a surface with this shading normal and this geometric one, by one sample,
-    /// without the share that falls to a path whose direction has the `path_density`.
-    pub(super) fn emitter_irradiance(
-        &self,
-        place: Vec3,
-        normal: Vec3,
-        geometric: Vec3,
-        path_density: impl Fn(Vec3) -> f32,
-        sampler: &mut Sampler,
-    ) -> Vec3 {
-        let Some(sample) = self.lights.sample_emitter(place, normal, sampler) else {
-            return Vec3::ZERO;
-        };
-        if geometric.dot(sample.direction) <= 0.0 {
-            return Vec3::ZERO;
-        }
-        let to_lamp = self.above(sample.point, sample.normal) - place;
-        let passing = self.tracer.transmittance(place, to_lamp, 1.0);
-        let share = power_heuristic(sample.density, path_density(sample.direction));
-        sample.radiance * (normal.dot(sample.direction) * passing * share / sample.density)
-    }
 }
 
 /// Share of a sample of density `ours` where `theirs` could have taken it too (Veach 1997, section 9.2).
-fn power_heuristic(ours: f32, theirs: f32) -> f32 {
+pub(super) fn power_heuristic(ours: f32, theirs: f32) -> f32 {
     let ratio = theirs / ours;
     1.0 / (1.0 + ratio * ratio)
 }

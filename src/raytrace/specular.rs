@@ -24,6 +24,16 @@ pub(super) struct Specular {
     kind: Kind,
 }
 
+/// Where light comes from that a mirror or a pane sends towards the viewer.
+pub(super) struct SpecularWay {
+    /// Unit vector towards where it comes from.
+    pub direction: Vec3,
+    /// What the radiance that comes from there is multiplied with.
+    pub share: Vec3,
+    /// It comes straight through a pane.
+    pub is_straight: bool,
+}
+
 #[derive(Clone, Debug)]
 enum Kind {
     /// Reflectance head-on, and the width of the slopes of its facets.
@@ -66,20 +76,28 @@ impl Specular {
         }
     }
 
-    /// Where light comes from that is sent towards the viewer, and what it is multiplied with; `geometric` is the
-    /// geometric normal on the viewer's side.
-    pub(super) fn scatter(&self, to_viewer: Vec3, geometric: Vec3, sampler: &mut Sampler) -> Option<(Vec3, Vec3)> {
+    /// Share of light that a pane lets pass straight on; none where it is no pane.
+    pub(super) fn passing(&self, to_viewer: Vec3) -> Option<Vec3> {
+        match self.kind {
+            Kind::Pane { ior, tint, share } => Some(tint * (share * (1.0 - fresnel(self.normal.dot(to_viewer), ior)))),
+            Kind::Metal { .. } => None,
+        }
+    }
+
+    /// A way on, chosen by chance; `geometric` is the geometric normal on the viewer's side.
+    pub(super) fn scatter(&self, to_viewer: Vec3, geometric: Vec3, sampler: &mut Sampler) -> Option<SpecularWay> {
+        let reflected = |direction, share| SpecularWay { direction, share, is_straight: false };
         match self.kind {
             Kind::Pane { ior, tint, share } => {
-                let reflected = fresnel(self.normal.dot(to_viewer), ior);
-                Some(if sampler.number() < reflected {
-                    (self.mirrored(to_viewer, geometric), Vec3::splat(share))
+                let is_reflected = sampler.number() < fresnel(self.normal.dot(to_viewer), ior);
+                Some(if is_reflected {
+                    reflected(self.mirrored(to_viewer, geometric), Vec3::splat(share))
                 } else {
-                    (-to_viewer, tint * share)
+                    SpecularWay { direction: -to_viewer, share: tint * share, is_straight: true }
                 })
             }
             Kind::Metal { facing, alpha } if alpha < MIRROR_ALPHA => {
-                Some((self.mirrored(to_viewer, geometric), schlick(facing, self.normal.dot(to_viewer))))
+                Some(reflected(self.mirrored(to_viewer, geometric), schlick(facing, self.normal.dot(to_viewer))))
             }
             Kind::Metal { facing, alpha } => {
                 let facet = visible_facet(to_viewer, self.normal, alpha, sampler.square());
@@ -89,7 +107,7 @@ impl Specular {
                 // The viewer sees the facet; others may hide the way on.
                 let seen = 1.0 + hidden(to_viewer.dot(self.normal), alpha);
                 let open = seen / (seen + hidden(cosine, alpha));
-                is_outside.then(|| (direction, schlick(facing, facet.dot(to_viewer)) * open))
+                is_outside.then(|| reflected(direction, schlick(facing, facet.dot(to_viewer)) * open))
             }
         }
     }
@@ -190,7 +208,7 @@ mod tests {
             let metal = metal(alpha);
             let followed = |index| {
                 let mut sampler = Sampler::new(3, index);
-                metal.scatter(to_viewer, Vec3::Z, &mut sampler).map_or(Vec3::ZERO, |(_, share)| share)
+                metal.scatter(to_viewer, Vec3::Z, &mut sampler).map_or(Vec3::ZERO, |way| way.share)
             };
             let followed = (0..COUNT).map(followed).sum::<Vec3>() / COUNT as f32;
             let lit = |index| {

@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::Vec3;
 
 use super::surface::Surface;
+use super::thrown::ThrownLight;
 use crate::baked::BakedScene;
 use crate::base::ids::TriangleId;
 use crate::scene::Scene;
@@ -16,6 +17,8 @@ pub(super) struct StoredLight<'a> {
     direct: Vec<Vec3>,
     /// After at least one reflection `[v]`.
     indirect: Vec<Vec3>,
+    /// Straight from lights but for mirrors `[v]`, which no bake knows.
+    by_mirrors: Vec<Vec3>,
     /// The back that a bake wrote out for a triangle, by the triangle.
     back_of: HashMap<TriangleId, TriangleId>,
 }
@@ -29,7 +32,7 @@ impl<'a> StoredLight<'a> {
             add(&mut direct, &group.direct);
             add(&mut indirect, &group.indirect);
         }
-        Self { scene, direct, indirect, back_of: backs(scene) }
+        Self { scene, direct, indirect, by_mirrors: vec![Vec3::ZERO; num_vertices], back_of: backs(scene) }
     }
 
     /// Indirect irradiance at a surface.
@@ -39,16 +42,33 @@ impl<'a> StoredLight<'a> {
 
     /// All irradiance at a surface.
     pub(super) fn total(&self, surface: &Surface) -> Vec3 {
-        self.interpolate(surface, |v| self.direct[v] + self.indirect[v])
+        self.interpolate(surface, |v| self.direct[v] + self.indirect[v] + self.by_mirrors[v])
+    }
+
+    /// Irradiance from lights by way of mirrors.
+    pub(super) fn by_mirrors(&self, surface: &Surface) -> Vec3 {
+        self.interpolate(surface, |v| self.by_mirrors[v])
+    }
+
+    /// Adds light that the bake does not know.
+    pub(super) fn add(&mut self, thrown: &ThrownLight) {
+        add(&mut self.direct, &thrown.through_panes);
+        add(&mut self.by_mirrors, &thrown.by_mirrors);
+        add(&mut self.indirect, &thrown.reflected);
+    }
+
+    /// The triangle that stands for a side of a surface.
+    pub(super) fn side(&self, triangle: TriangleId, is_front: bool) -> TriangleId {
+        match self.back_of.get(&triangle) {
+            Some(&back) if !is_front => back,
+            _ => triangle,
+        }
     }
 
     fn interpolate(&self, surface: &Surface, value: impl Fn(usize) -> Vec3) -> Vec3 {
         let front = self.scene.triangles[surface.triangle.index()].vertices;
         let weights = surface.barycentric.to_array();
-        let side = match self.back_of.get(&surface.triangle) {
-            Some(back) if !surface.is_front => self.scene.triangles[back.index()].vertices,
-            _ => front,
-        };
+        let side = self.scene.triangles[self.side(surface.triangle, surface.is_front).index()].vertices;
         let position = |v: u32| self.scene.vertices[v as usize].position;
         // The back goes round the other way: its corners are told by their places.
         let weight_at = |v: u32| (0..3).find(|&i| position(front[i]) == position(v)).map_or(0.0, |i| weights[i]);

@@ -4,9 +4,10 @@ use std::f32::consts::FRAC_1_PI;
 
 use glam::Vec3;
 
+use super::normal_map::mapped_normal;
 use super::path::{Chance, Ray};
 use super::sampler::Sampler;
-use super::specular::Specular;
+use super::specular::{Specular, SpecularWay};
 use crate::base::colour::luminance;
 use crate::base::ids::TriangleId;
 use crate::base::sampling::cosine_hemisphere;
@@ -30,6 +31,8 @@ pub(super) struct Surface {
     pub to_viewer: Vec3,
     /// Diffuse reflectance; 0 on the back of a single-sided surface.
     pub reflectance: Vec3,
+    /// Reflectance that radiosity gives it for opaque paint where it is clear glass.
+    pub unclear_reflectance: Vec3,
     /// Emitted radiance; 0 on the back of a single-sided surface.
     pub emission: Vec3,
     /// Metal or glass.
@@ -41,8 +44,18 @@ pub(super) struct Scattered {
     pub direction: Vec3,
     /// What the radiance that comes from there is multiplied with.
     pub throughput: Vec3,
-    /// Density of the direction per steradian where it was a diffuse reflection, whose direct light is sampled apart too.
-    pub diffuse_density: Option<f32>,
+    pub way: Way,
+}
+
+/// What sends light on.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Way {
+    /// Diffuse reflection, whose direct light is sampled apart too; density of the direction per steradian.
+    Diffuse { density: f32 },
+    /// A mirror, glossy metal, or the surface of a pane.
+    Reflected,
+    /// A pane, straight on.
+    Passed,
 }
 
 impl Surface {
@@ -63,32 +76,43 @@ impl Surface {
             normal: geometric,
             to_viewer: -ray.direction,
             reflectance: Vec3::ZERO,
+            unclear_reflectance: Vec3::ZERO,
             emission: Vec3::ZERO,
             specular: None,
         };
-        if hit.is_front || material.double_sided {
+        let has_side = hit.is_front || material.double_sided;
+        // A pane is glass from both sides.
+        if has_side || has_specular && material.transmission > 0.0 {
             let point = scene.surface_at(hit.triangle, weights);
-            surface.emission = point.emission;
-            surface.reflectance = point.reflectance;
-            let smooth = surface.shading_normal(scene);
-            if !matches!(ray.chance, Chance::Among { .. }) {
-                surface.normal = smooth;
+            if has_side {
+                surface.emission = point.emission;
+                surface.reflectance = point.reflectance;
+            }
+            let shading = surface.shading_normal(scene, has_specular);
+            if !matches!(ray.chance, Chance::Among { .. } | Chance::Aimed) {
+                surface.normal = shading;
             }
             if has_specular && !material.unlit {
-                surface.specular = Specular::of(&point, material, smooth);
-                surface.reflectance *= 1.0 - surface.specular.as_ref().map_or(0.0, Specular::clear_share);
+                surface.specular = Specular::of(&point, material, shading);
+                let clear_share = surface.specular.as_ref().map_or(0.0, Specular::clear_share);
+                surface.unclear_reflectance = surface.reflectance * clear_share;
+                surface.reflectance -= surface.unclear_reflectance;
             }
         }
         surface
     }
 
-    /// Interpolated unit normal on the ray's side; the geometric one where the ray would see its back.
-    fn shading_normal(&self, scene: &Scene) -> Vec3 {
+    /// Interpolated unit normal on the ray's side, bent by the normal map if `is_mapped`; the geometric one where the ray
+    /// would see its back.
+    fn shading_normal(&self, scene: &Scene, is_mapped: bool) -> Vec3 {
         let [a, b, c] = scene.triangles[self.triangle.index()].vertices.map(|v| scene.vertices[v as usize].normal);
         let weights = self.barycentric;
         let smooth = (a * weights.x + b * weights.y + c * weights.z).normalize_or_zero();
         let smooth = if smooth.dot(self.geometric) < 0.0 { -smooth } else { smooth };
-        if smooth.dot(self.to_viewer) > 0.0 { smooth } else { self.geometric }
+        let side = if self.is_front { 1.0 } else { -1.0 };
+        let mapped = is_mapped.then(|| mapped_normal(scene, self.triangle, weights, side * smooth)).flatten();
+        let shading = mapped.map_or(smooth, |mapped| side * mapped);
+        if shading.dot(self.to_viewer) > 0.0 { shading } else { self.geometric }
     }
 
     /// Density per steradian with which [`Self::scatter`] reflects diffusely into a direction.
@@ -110,12 +134,14 @@ impl Surface {
             return is_outside.then(|| Scattered {
                 direction,
                 throughput: self.reflectance / diffuse_share,
-                diffuse_density: Some(self.diffuse_density(direction)),
+                way: Way::Diffuse { density: self.diffuse_density(direction) },
             });
         }
         let specular = self.specular.as_ref()?;
-        let (direction, throughput) = specular.scatter(self.to_viewer, self.geometric, sampler)?;
-        Some(Scattered { direction, throughput: throughput / (1.0 - diffuse_share), diffuse_density: None })
+        let SpecularWay { direction, share, is_straight } =
+            specular.scatter(self.to_viewer, self.geometric, sampler)?;
+        let way = if is_straight { Way::Passed } else { Way::Reflected };
+        Some(Scattered { direction, throughput: share / (1.0 - diffuse_share), way })
     }
 
     /// Probability of a diffuse reflection.

@@ -1,32 +1,32 @@
 //! The second pass: ray tracing that takes its ambient light from radiosity.
 //!
 //! From the eye to the first diffuse surface everything depends on the view and is traced: direct light with shadow rays,
-//! mirrors, glossy metal, panes. What reaches that surface indirectly does not, and was solved in the first pass. With a
-//! constant in its place this is the classic ray tracing of Whitted 1980.
+//! mirrors, glossy metal, panes. What reaches that surface indirectly does not, and was solved in the first pass, but for
+//! what mirrors throw, which is solved here before the first ray. With a constant in place of indirect light this is the
+//! classic ray tracing of Whitted 1980.
 //!
 //! Sources: Whitted 1980, "An Improved Illumination Model for Shaded Display"; Wallace, Cohen, Greenberg 1987, "A Two-pass
 //! Solution to the Rendering Equation"; Smits, Arvo, Salesin 1992 (the final gather).
 
-use std::f32::consts::FRAC_1_PI;
+use std::f32::consts::{FRAC_1_PI, PI};
 
 use glam::Vec3;
 
 use super::film::Film;
+use super::mirrors::follow;
 use super::path::{Chance, PathTracer, Ray};
 use super::sampler::Sampler;
 use super::settings::{Ambient, TwoPassSettings};
 use super::stored::StoredLight;
 use super::surface::Surface;
+use super::thrown::{has_mirrors, thrown_light};
 use crate::baked::BakedScene;
 use crate::base::progress::Progress;
 use crate::base::sampling::cosine_hemisphere;
 use crate::scene::Camera;
 use crate::trace::Tracer;
 
-/// Mirrors in a row that are followed.
-const MAX_MIRRORS: u32 = 12;
-
-/// A picture of a baked scene, whose elements `tracer` holds; what was not reached when it was cancelled is empty.
+/// A picture of a baked scene, whose elements `tracer` holds; without a sample where it was cancelled.
 #[must_use]
 pub fn two_pass(
     tracer: &Tracer<'_>,
@@ -36,44 +36,62 @@ pub fn two_pass(
     settings: &TwoPassSettings,
     progress: &dyn Progress,
 ) -> Film {
-    let second = SecondPass { rays: PathTracer::new(tracer, 0, true), stored: StoredLight::new(baked), settings };
-    Film::trace(camera, size, settings.samples, settings.seed, progress, |ray, sampler| second.seen(ray, sampler))
+    let mut film = Film::new(size);
+    if let Some(second) = SecondPass::new(tracer, baked, settings, progress) {
+        second.refine(&mut film, camera, settings.samples, progress);
+    }
+    film
 }
 
-struct SecondPass<'a> {
+/// The second pass over a bake, ready for pictures from any viewpoint.
+///
+/// For a picture that gets better while it is looked at: [`Self::refine`] a [`Film`] by a few samples at a time and show
+/// [`Film::radiance`] after each.
+pub struct SecondPass<'a> {
     rays: PathTracer<'a>,
     stored: StoredLight<'a>,
-    settings: &'a TwoPassSettings,
+    settings: TwoPassSettings,
 }
 
-impl SecondPass<'_> {
-    /// Radiance along a ray from the eye, through mirrors; none from the open.
-    fn seen(&self, mut ray: Ray, sampler: &mut Sampler) -> Option<Vec3> {
-        let mut radiance = Vec3::ZERO;
-        let mut throughput = Vec3::ONE;
-        for mirrors in 0..=MAX_MIRRORS {
-            let Some(surface) = self.meet(&ray, sampler) else {
-                return (mirrors > 0).then_some(radiance);
-            };
-            radiance += throughput * (surface.emission + self.reflected(&surface, sampler));
-            let Some(specular) = &surface.specular else { break };
-            let Some((direction, share)) = specular.scatter(surface.to_viewer, surface.geometric, sampler) else {
-                break;
-            };
-            throughput *= share;
-            ray = self.rays.onward(&surface, direction, Chance::Only);
+impl<'a> SecondPass<'a> {
+    /// Prepares the second pass over `baked`, whose elements `tracer` holds. None where it was cancelled.
+    ///
+    /// Cost: seconds where there are mirrors or panes, whose light is solved here; else next to nothing.
+    #[must_use]
+    pub fn new(
+        tracer: &'a Tracer<'a>,
+        baked: &'a BakedScene,
+        settings: &TwoPassSettings,
+        progress: &dyn Progress,
+    ) -> Option<Self> {
+        let (rays, mut stored) = (PathTracer::new(tracer, 0, true), StoredLight::new(baked));
+        if matches!(settings.ambient, Ambient::Indirect { .. }) && has_mirrors(rays.scene()) {
+            let thrown = thrown_light(&rays, &stored, progress)?;
+            stored.add(&thrown);
         }
-        Some(radiance)
+        Some(Self { rays, stored, settings: *settings })
     }
 
-    fn meet(&self, ray: &Ray, sampler: &mut Sampler) -> Option<Surface> {
-        let hit = self.rays.meet(ray, sampler)?;
-        let mut surface = Surface::at(self.rays.scene(), ray, &hit, true);
-        // Whitted's metal is a mirror or nothing.
+    /// Adds `samples` rays a pixel to a picture. False where it was cancelled: the picture is then as it was before.
+    pub fn refine(&self, film: &mut Film, camera: &Camera, samples: u32, progress: &dyn Progress) -> bool {
+        film.refine(camera, samples, self.settings.seed, progress, |ray, sampler| self.seen(ray, sampler))
+    }
+
+    /// Radiance along a ray from the eye, through mirrors; none from the open.
+    fn seen(&self, ray: Ray, sampler: &mut Sampler) -> Option<Vec3> {
+        let mut radiance = Vec3::ZERO;
+        let prepare = |surface: &mut Surface| self.simplify(surface);
+        let num_met = follow(&self.rays, ray, sampler, prepare, |surface, trail, sampler| {
+            radiance += trail.throughput * (surface.emission + self.reflected(surface, sampler));
+        });
+        (num_met > 0).then_some(radiance)
+    }
+
+    /// Whitted's metal is a mirror or nothing.
+    fn simplify(&self, surface: &mut Surface) {
         if matches!(self.settings.ambient, Ambient::Constant(_)) {
-            surface.specular = surface.specular.filter(|specular| specular.is_perfect());
+            surface.specular.take_if(|specular| !specular.is_perfect());
         }
-        Some(surface)
     }
 
     /// Light of the lights and of the surroundings that a surface reflects towards the viewer, but for what its mirror
@@ -84,18 +102,21 @@ impl SecondPass<'_> {
             Ambient::All => per_irradiance * self.stored.total(surface),
             Ambient::None => self.rays.direct(surface, sampler),
             Ambient::Constant(radiance) => surface.reflectance * radiance + self.rays.direct(surface, sampler),
-            Ambient::Indirect { final_gather: 0 } => {
-                per_irradiance * self.stored.indirect(surface) + self.rays.direct(surface, sampler)
-            }
             Ambient::Indirect { final_gather } => {
-                let gathered: Vec3 = (0..final_gather).map(|_| self.gathered(surface, sampler)).sum();
-                surface.reflectance * gathered / final_gather as f32 + self.rays.direct(surface, sampler)
+                let indirect = match final_gather {
+                    0 => self.stored.indirect(surface),
+                    _ => {
+                        PI / final_gather as f32
+                            * (0..final_gather).map(|_| self.gathered(surface, sampler)).sum::<Vec3>()
+                    }
+                };
+                per_irradiance * (indirect + self.stored.by_mirrors(surface)) + self.rays.direct(surface, sampler)
             }
         }
     }
 
     /// Indirect radiance from one direction of the hemisphere, as likely as its cosine: what the surface in it reflects of
-    /// the stored light. Lamps are direct light, unless a mirror shows them.
+    /// the stored light. Lamps are direct light, and what mirrors throw of them is stored.
     fn gathered(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
         if surface.reflectance == Vec3::ZERO {
             return Vec3::ZERO;
@@ -104,18 +125,17 @@ impl SecondPass<'_> {
         if direction.dot(surface.geometric) <= 0.0 {
             return Vec3::ZERO;
         }
-        let mut ray = self.rays.onward(surface, direction, Chance::Only);
+        let ray = self.rays.onward(surface, direction, Chance::Only);
         let mut radiance = Vec3::ZERO;
-        let mut throughput = Vec3::ONE;
-        for mirrors in 0..=MAX_MIRRORS {
-            let Some(met) = self.meet(&ray, sampler) else { break };
-            let emission = if mirrors > 0 { met.emission } else { Vec3::ZERO };
-            radiance += throughput * (emission + met.reflectance * FRAC_1_PI * self.stored.total(&met));
-            let Some(specular) = &met.specular else { break };
-            let Some((direction, share)) = specular.scatter(met.to_viewer, met.geometric, sampler) else { break };
-            throughput *= share;
-            ray = self.rays.onward(&met, direction, Chance::Only);
-        }
+        follow(
+            &self.rays,
+            ray,
+            sampler,
+            |_| {},
+            |met, trail, _| {
+                radiance += trail.throughput * met.reflectance * FRAC_1_PI * self.stored.total(met);
+            },
+        );
         radiance
     }
 }

@@ -1,12 +1,14 @@
 //! How far two pictures differ, in numbers that a test can hold.
 //!
 //! Three numbers, because each misses something: the relative error sees large faults anywhere, the mean difference a
-//! picture that is a little too bright everywhere, the perceptible share a small region that is plainly wrong.
+//! picture that is a little too bright everywhere, the perceptible share a small region that is plainly wrong. FLIP tells
+//! pixel by pixel what somebody would see.
 
 use std::path::Path;
 
 use glam::Vec3;
 
+use super::flip::flip;
 use super::picture::FileKind;
 use super::{Picture, RenderError};
 use crate::base::colour::{linear_from_srgb, luminance};
@@ -100,9 +102,7 @@ fn decoded(pixels: Vec<Vec3>) -> Vec<Vec3> {
 /// # Errors
 /// Their sizes differ.
 pub fn compare(picture: &Raster, reference: &Raster) -> Result<Difference, RenderError> {
-    if picture.size != reference.size {
-        return Err(RenderError::SizesDiffer { a: picture.size, b: reference.size });
-    }
+    check_sizes(picture, reference)?;
     let white = reference.white();
     let (mut error, mut power, mut light, mut reference_light, mut perceptible) = (0.0, 0.0, 0.0, 0.0, 0usize);
     for (&a, &b) in picture.pixels.iter().zip(&reference.pixels) {
@@ -117,6 +117,26 @@ pub fn compare(picture: &Raster, reference: &Raster) -> Result<Difference, Rende
         mean_difference: ratio(light - reference_light, reference_light) as f32,
         perceptible_share: perceptible as f32 / reference.pixels.len().max(1) as f32,
     })
+}
+
+/// How different each pixel looks, 0 the same .. 1 as different as can be, by FLIP; radiance is shown so that five times
+/// the mean of the reference is white.
+///
+/// # Errors
+/// Their sizes differ.
+pub fn visible_difference(picture: &Raster, reference: &Raster) -> Result<Vec<f32>, RenderError> {
+    check_sizes(picture, reference)?;
+    let white = reference.white();
+    let [shown, expected] =
+        [picture, reference].map(|raster| raster.pixels.iter().map(|&pixel| pixel / white).collect::<Vec<_>>());
+    Ok(flip(&shown, &expected, reference.size[0] as usize))
+}
+
+fn check_sizes(picture: &Raster, reference: &Raster) -> Result<(), RenderError> {
+    if picture.size == reference.size {
+        return Ok(());
+    }
+    Err(RenderError::SizesDiffer { a: picture.size, b: reference.size })
 }
 
 /// `part / whole`; nothing of nothing is nothing, something of nothing is infinite.

@@ -8,6 +8,7 @@
 pub mod compare;
 pub mod develop;
 pub mod false_colour;
+pub mod flip;
 pub mod frame;
 pub mod look;
 pub mod overlay;
@@ -20,7 +21,7 @@ mod meter;
 mod surface;
 mod tonemap;
 
-pub use compare::{Difference, Raster, compare};
+pub use compare::{Difference, Raster, compare, visible_difference};
 pub use develop::develop;
 pub use false_colour::{LuxScale, turbo};
 pub use frame::Renderer;

@@ -115,6 +115,33 @@ impl<'a> Tracer<'a> {
         if passing >= DARK { passing } else { 0.0 }
     }
 
+    /// Share of light that passes, channel by channel, as [`Tracer::transmittance`] has it; but where `pane` knows what a
+    /// triangle lets pass at a point, given by the weights of its corners, that counts.
+    #[must_use]
+    pub fn coloured_transmittance(
+        &self,
+        origin: Vec3,
+        direction: Vec3,
+        max_distance: f32,
+        pane: impl Fn(TriangleId, Vec3) -> Option<Vec3>,
+    ) -> Vec3 {
+        let mut passing = Vec3::ONE;
+        self.tree.visit(&mut Probe::new(origin, direction, max_distance), |probe, quad| {
+            let met = quad.meet(probe);
+            for lane in lanes(met.lanes) {
+                let leaf = &self.leaves[quad.triangles[lane] as usize];
+                let (u, v) = (met.u[lane], met.v[lane]);
+                passing *= match pane(leaf.triangle, Vec3::new(1.0 - u - v, u, v)) {
+                    Some(share) => share,
+                    None if leaf.is_opaque => Vec3::ZERO,
+                    None => Vec3::splat(1.0 - self.opacity_at(leaf, u, v)),
+                };
+            }
+            passing.max_element() >= DARK
+        });
+        if passing.max_element() >= DARK { passing } else { Vec3::ZERO }
+    }
+
     fn opacity_at(&self, leaf: &Leaf, u: f32, v: f32) -> f32 {
         self.scene.surface_at(leaf.triangle, Vec3::new(1.0 - u - v, u, v)).opacity
     }

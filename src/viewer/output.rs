@@ -79,7 +79,7 @@ pub fn traced(
     let ambient = Ambient::Indirect { final_gather: 0 };
     let rays = TwoPassSettings { samples: settings.num_rays, ambient, seed: 0 };
     let film = two_pass(&tracer, &baked, camera, settings.size, &rays, progress);
-    (!progress.is_cancelled()).then(|| develop(film.size, film.radiance, look))
+    (!progress.is_cancelled()).then(|| develop(film.size(), film.radiance(), look))
 }
 
 /// The eye as an option of `hemicube render`.

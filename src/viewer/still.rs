@@ -7,8 +7,7 @@ use super::collider::Collider;
 use super::errand::{Bearer, Finding};
 use super::settings::GroupDial;
 use super::solved::Solved;
-use crate::base::progress::Progress as _;
-use crate::raytrace::{Ambient, TwoPassSettings, two_pass};
+use crate::raytrace::{Ambient, Film, SecondPass, TwoPassSettings};
 use crate::render::{Exposure, Look, Shading, develop};
 use crate::scene::{Camera, Scene};
 use crate::trace::Tracer;
@@ -43,24 +42,12 @@ pub fn trace(bearer: &Bearer, solved: &Solved, wanted: &Subject) {
     let Subject { camera, size, look, dials } = wanted;
     let baked = solved.dimmed(dials);
     let tracer = Tracer::new(&baked.scene);
-    let mut sum = vec![[0.0; 4]; size[0] as usize * size[1] as usize];
-    for pass in 0..MAX_RAYS {
-        let settings = TwoPassSettings { samples: 1, ambient: Ambient::Indirect { final_gather: 0 }, seed: pass };
-        let film = two_pass(&tracer, &baked, camera, *size, &settings, bearer);
-        if bearer.is_cancelled() {
-            return;
-        }
-        add(&mut sum, &film.radiance);
-        let num_rays = pass + 1;
-        let mean = sum.iter().map(|pixel| pixel.map(|channel| channel / num_rays as f32)).collect();
-        let display = develop(*size, mean, look).display;
-        bearer.bring(Finding::Still(Box::new(Exposed { size: *size, display, num_rays })));
-    }
-}
-
-fn add(sum: &mut [[f32; 4]], film: &[[f32; 4]]) {
-    for (sum, pixel) in sum.iter_mut().zip(film) {
-        sum.iter_mut().zip(pixel).for_each(|(sum, channel)| *sum += channel);
+    let settings = TwoPassSettings { samples: MAX_RAYS, ambient: Ambient::Indirect { final_gather: 0 }, seed: 0 };
+    let Some(second) = SecondPass::new(&tracer, &baked, &settings, bearer) else { return };
+    let mut film = Film::new(*size);
+    while film.samples() < MAX_RAYS && second.refine(&mut film, camera, 1, bearer) {
+        let display = develop(*size, film.radiance(), look).display;
+        bearer.bring(Finding::Still(Box::new(Exposed { size: *size, display, num_rays: film.samples() })));
     }
 }
 

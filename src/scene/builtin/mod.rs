@@ -7,11 +7,13 @@ mod carving;
 mod cornell;
 mod gallery;
 mod images;
+mod mirrors;
 mod round;
 mod shape;
 
 pub use cornell::cornell;
 pub use gallery::gallery;
+pub use mirrors::mirrors;
 
 use super::Scene;
 
@@ -19,7 +21,7 @@ use super::Scene;
 pub const PREFIX: &str = "builtin:";
 
 /// Names of the built-in scenes.
-pub const NAMES: [&str; 2] = ["gallery", "cornell"];
+pub const NAMES: [&str; 3] = ["gallery", "cornell", "mirrors"];
 
 /// The built-in scene of this name.
 #[must_use]
@@ -27,6 +29,7 @@ pub fn by_name(name: &str) -> Option<Scene> {
     match name {
         "gallery" => Some(gallery()),
         "cornell" => Some(cornell()),
+        "mirrors" => Some(mirrors()),
         _ => None,
     }
 }

@@ -1,0 +1,47 @@
+//! What a ray has still to visit, in memory of its own as long as that is little.
+
+/// Entries of the stack that need no memory from the heap.
+const SHALLOW: usize = 48;
+
+/// What is still to be visited, with the distance to its box.
+pub(super) struct Stack {
+    shallow: [(f32, u32); SHALLOW],
+    length: usize,
+    deep: Vec<(f32, u32)>,
+}
+
+impl Stack {
+    #[inline]
+    pub(super) fn new() -> Self {
+        Self { shallow: [(0.0, 0); SHALLOW], length: 0, deep: Vec::new() }
+    }
+
+    #[inline]
+    pub(super) fn push(&mut self, entry: (f32, u32)) {
+        match self.shallow.get_mut(self.length) {
+            Some(place) => {
+                *place = entry;
+                self.length += 1;
+            }
+            None => self.deep.push(entry),
+        }
+    }
+
+    /// The last entry whose box is within reach.
+    #[inline]
+    pub(super) fn pop(&mut self, reach: f32) -> Option<u32> {
+        while let Some((distance, child)) = self.deep.pop() {
+            if distance <= reach {
+                return Some(child);
+            }
+        }
+        while self.length > 0 {
+            self.length -= 1;
+            let (distance, child) = self.shallow[self.length];
+            if distance <= reach {
+                return Some(child);
+            }
+        }
+        None
+    }
+}

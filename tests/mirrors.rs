@@ -1,0 +1,159 @@
+//! Light that mirrors and panes throw: closed forms, and two passes against paths.
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+use hemicube::bake::{BakeSettings, Quality, bake};
+use hemicube::base::ids::GroupId;
+use hemicube::base::progress::Unwatched;
+use hemicube::form_factor::analytic::point_to_polygon;
+use hemicube::raytrace::{
+    Ambient, Film, MeasuringPoint, PathSettings, TwoPassSettings, irradiance, path_traced, two_pass,
+};
+use hemicube::scene::{Camera, Light, LightKind, Material, Scene};
+use hemicube::trace::Tracer;
+
+use crate::support::quads::{Quads, paint, slot, square_camera, texture};
+use crate::support::scenes::SceneBuilder;
+
+/// Mean radiance of a picture.
+fn mean(film: &Film) -> Vec3 {
+    let radiance = film.radiance();
+    radiance.iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).sum::<Vec3>() / radiance.len() as f32
+}
+
+fn second_pass(quads: &Quads, ambient: Ambient) -> Vec3 {
+    let settings = TwoPassSettings { samples: 64, ambient, seed: 0 };
+    let tracer = Tracer::new(&quads.baked.scene);
+    mean(&two_pass(&tracer, &quads.baked, &square_camera(), [16; 2], &settings, &Unwatched))
+}
+
+fn by_paths(scene: &Scene, samples: u32) -> Vec3 {
+    let settings = PathSettings { samples, ..PathSettings::default() };
+    mean(&path_traced(&Tracer::new(scene), &square_camera(), [16; 2], &settings, &Unwatched))
+}
+
+fn silver() -> Material {
+    Material { metallic: 1.0, roughness: 0.0, ..paint(Vec3::splat(0.9)) }
+}
+
+/// A lamp that turns its back on the square, and a mirror above both.
+fn lamp_in_a_mirror() -> Quads {
+    let mut quads = Quads::square(paint(Vec3::splat(0.05)), Vec3::ZERO);
+    let lamp = Material { emission: Vec3::splat(5.0), group: Some(GroupId(0)), ..paint(Vec3::ZERO) };
+    let lamp = quads.material(lamp);
+    quads.quad(Vec3::new(3.0, -0.5, 1.0), Vec3::X, Vec3::Y, lamp);
+    let mirror = quads.material(silver());
+    quads.quad(Vec3::new(6.0, -4.0, 2.0), -8.0 * Vec3::X, 8.0 * Vec3::Y, mirror);
+    quads.light(GroupId(0), |_| Vec3::ZERO, |_| Vec3::ZERO);
+    quads
+}
+
+#[test]
+fn a_mirror_throws_the_light_of_the_lamp_behind_it() {
+    let quads = lamp_in_a_mirror();
+    // Mean over the square of the form factor to the lamp's image, by the midpoint rule.
+    let image = [(3.0, -0.5), (3.0, 0.5), (4.0, 0.5), (4.0, -0.5)].map(|(x, y)| Vec3::new(x, y, 3.0));
+    let steps = 40;
+    let at = |i: i32| Vec3::new((i % steps) as f32 + 0.5, (i / steps) as f32 + 0.5, 0.0) * (2.0 / steps as f32);
+    let squares = 0..steps * steps;
+    let factors = squares.map(|i| point_to_polygon(at(i) - Vec3::new(1.0, 1.0, 0.0), Vec3::Z, &image));
+    let exact = 0.05 * 0.9 * 5.0 * factors.sum::<f32>() / (steps * steps) as f32;
+    for (name, found) in [
+        ("two passes", second_pass(&quads, Ambient::Indirect { final_gather: 0 })),
+        ("final gather", second_pass(&quads, Ambient::Indirect { final_gather: 1 })),
+        ("paths", by_paths(&quads.baked.scene, 4096)),
+    ] {
+        // Metal reflects a little more at an angle, 0.1 (1 - cos)^5, and shows the square to itself: less than 1 % of 0.9.
+        assert!(found.x > 0.985 * exact && found.x < 1.02 * exact, "{name}: {found} for {exact}");
+    }
+    assert_eq!(second_pass(&quads, Ambient::None), Vec3::ZERO);
+}
+
+#[test]
+fn a_lamp_behind_a_pane_lights_through_it() {
+    let mut builder = SceneBuilder::default();
+    let floor = builder.material(Vec3::splat(0.5), Vec3::ZERO);
+    let lamp = builder.material(Vec3::ZERO, Vec3::splat(8.0));
+    let pane = builder.material(Vec3::ONE, Vec3::ZERO);
+    let flat = |half: f32, y: f32| {
+        [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|(x, z)| Vec3::new(half * x, y, half * z))
+    };
+    let mut down = flat(0.2, 2.0);
+    down.reverse();
+    builder.quad(flat(3.0, 0.0), floor);
+    builder.quad(flat(3.0, 1.0), pane);
+    builder.quad(down, lamp);
+    let mut scene = builder.build(1);
+    scene.materials[2] = Material { transmission: 1.0, ior: 1.5, ..paint(Vec3::splat(0.5)) };
+    let point = MeasuringPoint { position: Vec3::ZERO, normal: Vec3::Y };
+    let settings = PathSettings { samples: 1 << 14, ..PathSettings::default() };
+    let found = irradiance(&Tracer::new(&scene), &[point], &settings, &Unwatched).expect("nobody cancels")[0];
+    // Nearly head-on: 4 % are reflected, half of the rest is the tint.
+    let exact = 8.0 * 0.96 * 0.5 * point_to_polygon(Vec3::ZERO, Vec3::Y, &down);
+    assert!((found.direct.x / exact - 1.0).abs() < 0.01, "{found:?} for {exact}");
+    let position = Vec3::new(0.1, 2.0, 0.05);
+    let kind = LightKind::Point { position };
+    let intensity = Vec3::splat(3.0);
+    scene.materials[1].emission = Vec3::ZERO;
+    scene.lights.push(Light { name: String::new(), kind, intensity, range: None, group: GroupId(0) });
+    scene.triangles.retain(|triangle| triangle.material.index() != 1);
+    let found = irradiance(&Tracer::new(&scene), &[point], &settings, &Unwatched).expect("nobody cancels")[0];
+    let exact = 3.0 * 0.96 * 0.5 * position.y / position.length().powi(3);
+    assert!((found.direct.x / exact - 1.0).abs() < 1e-3, "{found:?} for {exact}");
+}
+
+/// A closed room with a lamp, one wall of which is a mirror and one half of whose floor lies under a pane.
+fn room_with_a_mirror() -> Scene {
+    let mut builder = SceneBuilder::default();
+    let white = builder.material(Vec3::new(0.7, 0.6, 0.5), Vec3::ZERO);
+    let mirror = builder.material(Vec3::ONE, Vec3::ZERO);
+    let lamp = builder.material(Vec3::splat(0.5), Vec3::splat(20.0));
+    let pane = builder.material(Vec3::ONE, Vec3::ZERO);
+    builder.room(Vec3::ZERO, Vec3::splat(2.0), [white, white, mirror, white, white, white]);
+    let under_ceiling = |x: f32, z: f32| Vec3::new(x, 1.9, z);
+    builder.quad([(1.2, 0.7), (1.7, 0.7), (1.7, 1.2), (1.2, 1.2)].map(|(x, z)| under_ceiling(x, z)), lamp);
+    let above_floor = |x: f32, z: f32| Vec3::new(x, 0.5, z);
+    builder.quad([(0.0, 0.0), (0.0, 1.0), (2.0, 1.0), (2.0, 0.0)].map(|(x, z)| above_floor(x, z)), pane);
+    let mut scene = builder.build(1);
+    scene.materials[1] = silver();
+    scene.materials[3] = Material { transmission: 1.0, ..paint(Vec3::new(0.5, 0.9, 0.7)) };
+    scene
+}
+
+#[test]
+fn two_passes_find_as_much_light_as_paths_among_mirrors_and_panes() {
+    let scene = room_with_a_mirror();
+    let settings = BakeSettings { element_size: Some(0.15), ..BakeSettings::preset(Quality::Draft) };
+    let baked = bake(None, &scene, &settings, &Unwatched).expect("small").baked;
+    let eye = Camera::looking_at("inside", Vec3::new(1.8, 1.2, 1.9), Vec3::new(0.7, 0.4, 0.6), 1.2);
+    let paths = PathSettings { samples: 1024, ..PathSettings::default() };
+    let truth = mean(&path_traced(&Tracer::new(&scene), &eye, [16; 2], &paths, &Unwatched));
+    for (final_gather, samples) in [(0, 64), (4, 32)] {
+        let settings = TwoPassSettings { samples, ambient: Ambient::Indirect { final_gather }, seed: 0 };
+        let tracer = Tracer::new(&baked.scene);
+        let found = mean(&two_pass(&tracer, &baked, &eye, [16; 2], &settings, &Unwatched));
+        assert!((found / truth - 1.0).abs().max_element() < 0.02, "{final_gather}: {found} for {truth}");
+    }
+}
+
+#[test]
+fn a_normal_map_turns_the_surface_to_the_light() {
+    // Texels that lean by 36.9 degrees to the right and up.
+    for (texel, lean) in
+        [([204, 128, 230, 255], Vec3::new(0.6, 0.0, 0.8)), ([128, 204, 230, 255], Vec3::new(0.0, 0.6, 0.8))]
+    {
+        let relief = Material { normal_texture: Some((slot(0), 1.0)), ..paint(Vec3::splat(0.5)) };
+        let mut quads = Quads::square(relief, Vec3::ZERO);
+        quads.baked.scene.textures.push(texture(1, &[texel]));
+        let kind = LightKind::Directional { direction: -lean };
+        let sun = Light { name: String::new(), kind, intensity: Vec3::splat(PI), range: None, group: GroupId(0) };
+        quads.baked.scene.lights.push(sun);
+        // A surface that faces the sun shows its reflectance.
+        let found = second_pass(&quads, Ambient::None);
+        assert!((found.x - 0.5).abs() < 0.003, "{lean}: {found}");
+        quads.baked.scene.materials[0].normal_texture = None;
+        let flat = second_pass(&quads, Ambient::None);
+        assert!((flat.x - 0.4).abs() < 1e-3, "{lean}: {flat}");
+    }
+}
