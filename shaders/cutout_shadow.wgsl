@@ -10,8 +10,27 @@ struct CutoutCorner {
     colour: vec4f,
 }
 
+// A box of the tree; its first child is the next node.
+struct CutoutNode {
+    low: vec3f,
+    // The node to go on with where a line misses the box.
+    skip: u32,
+    high: vec3f,
+    // The triangle of a leaf, or NO_TRIANGLE.
+    triangle: u32,
+}
+
+const NO_TRIANGLE: u32 = 0xffffffffu;
+
 // Three corners a triangle.
 @group(3) @binding(0) var<storage, read> cutouts: array<CutoutCorner>;
+@group(3) @binding(1) var<storage, read> nodes: array<CutoutNode>;
+
+// Triangles are this share of their size larger: lines must not slip through between two.
+const OVERLAP: f32 = 1e-5;
+// Every axis has a way through a box, however flat the line.
+const FLATTEST: f32 = 1e-30;
+const ENDLESS: f32 = 1e30;
 
 // A line begins this share of the way towards the eye, as rays of the ray-traced shadow do.
 const TOWARDS_EYE: f32 = 1e-5;
@@ -20,12 +39,31 @@ const TOWARDS_EYE: f32 = 1e-5;
 fn fragment(in: VisiblePoint) {
     let origin = in.point + TOWARDS_EYE * towards_eye(in.point);
     let to_light = light.place.xyz - light.place.w * origin;
-    for (var first = 0u; first < arrayLength(&cutouts); first += 3u) {
-        if is_stopped(first, origin, to_light) {
+    let inverse = 1.0 / select(to_light, vec3f(FLATTEST), abs(to_light) < vec3f(FLATTEST));
+    let reach = select(ENDLESS, 1.0, light.place.w > 0.0);
+    var at = 0u;
+    while at < arrayLength(&nodes) {
+        let node = nodes[at];
+        if !is_crossed(node, origin, inverse, reach) {
+            // Software drivers run pixels outside of the triangle too, whose loads yield zero: go on all the same.
+            at = max(node.skip, at + 1u);
+            continue;
+        }
+        if node.triangle != NO_TRIANGLE && is_stopped(3u * node.triangle, origin, to_light) {
             return;
         }
+        at += 1u;
     }
     discard;
+}
+
+// The line meets the box of a node within its reach.
+fn is_crossed(node: CutoutNode, origin: vec3f, inverse: vec3f, reach: f32) -> bool {
+    let a = (node.low - origin) * inverse;
+    let b = (node.high - origin) * inverse;
+    let enter = min(a, b);
+    let leave = max(a, b);
+    return max(max(enter.x, enter.y), max(enter.z, 0.0)) <= min(min(leave.x, leave.y), min(leave.z, reach));
 }
 
 // From a point to the eye; one metre towards it where it is infinitely far.
@@ -49,7 +87,7 @@ fn is_stopped(first: u32, origin: vec3f, to_light: vec3f) -> bool {
     let v = dot(to_light, q) / determinant;
     let distance = dot(edge_2, q) / determinant;
     let is_beyond_light = light.place.w > 0.0 && distance >= 1.0;
-    if u < 0.0 || v < 0.0 || u + v > 1.0 || distance < 0.0 || is_beyond_light {
+    if u < -OVERLAP || v < -OVERLAP || u + v > 1.0 + OVERLAP || distance < 0.0 || is_beyond_light {
         return false;
     }
     return alpha_at(first, vec3f(1.0 - u - v, u, v)) >= cutouts[first].solid_alpha;

@@ -4,10 +4,7 @@
 // projection puts w = 0 at depth 0 exactly, so nothing is ever clipped far away and both caps exist.
 
 const INFINITELY_FAR: f32 = 1.0;
-const A_HAIR_DEEPER: f32 = 2.0;
 const SHORTEST: f32 = 1e-30;
-// Share of the depth.
-const HAIR: f32 = 1e-5;
 
 struct Corner {
     // Metres; w says where the corner is to be.
@@ -21,8 +18,7 @@ fn vertex(in: Corner) -> @builtin(position) @invariant vec4f {
         // Of length one: clipping between corners of very different sizes is not exact.
         return frame.projection_from_world * vec4f(away / max(length(away), SHORTEST), 0.0);
     }
-    let place = frame.projection_from_world * vec4f(in.position.xyz, 1.0);
-    return vec4f(place.xy, select(place.z, place.z * (1.0 - HAIR), in.position.w == A_HAIR_DEEPER), place.w);
+    return frame.projection_from_world * vec4f(in.position.xyz, 1.0);
 }
 
 // Depth of a far plane that the projection itself does not have; 0 means none.

@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 
 use crate::baked::BakedScene;
 use crate::gpu::{Gpu, SceneBuffers};
-use crate::render::shadow::{Decisions, shadow_difference};
+use crate::render::shadow::{Case, Judge, shadow_difference};
 use crate::render::{ShadowScene, ShadowSettings, ShadowTechnique, View, save_display};
 use crate::scene::Camera;
 
@@ -19,9 +19,12 @@ pub struct ShadowOptions {
     /// of ambient light, or of none with --lighting direct, which then need no bake).
     #[arg(long, value_enum, value_name = "TECHNIQUE")]
     pub shadows: Option<TechniqueName>,
-    /// Points on each emissive surface from which light comes, 1 to 256; many make soft shadows.
+    /// Points on each lamp that has a size from which light comes, 1 to 256; many make soft shadows.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=256))]
     pub light_samples: u32,
+    /// Size that point and spot lights are given, metres; with many --light-samples their shadows become soft.
+    #[arg(long, value_name = "M", default_value = "0", value_parser = radius)]
+    pub light_radius: f32,
     /// Draws no light but where technique A finds other shadows than technique B, and prints how many pixels these are,
     /// more than one pixel away from an edge of a shadow (of B, or of the ray-traced one).
     #[arg(long, value_name = "A,B", value_enum, value_delimiter = ',', num_args = 1, conflicts_with_all = ["shadows", "reference"])]
@@ -78,8 +81,14 @@ impl ShadowOptions {
     }
 
     fn settings_of(&self, name: TechniqueName) -> ShadowSettings {
-        ShadowSettings { light_samples: self.light_samples, ..ShadowSettings::new(name.technique()) }
+        let (light_samples, light_radius) = (self.light_samples, self.light_radius);
+        ShadowSettings { light_samples, light_radius, ..ShadowSettings::new(name.technique()) }
     }
+}
+
+fn radius(text: &str) -> Result<f32, String> {
+    let parsed = text.parse().ok().filter(|radius: &f32| (0.0..=1e6).contains(radius));
+    parsed.ok_or_else(|| "must be a number of metres, 0 or more".to_owned())
 }
 
 /// Writes where the techniques differ and prints in how many pixels.
@@ -97,8 +106,9 @@ pub fn compare_shadows(
     let buffers = SceneBuffers::new(gpu, &baked);
     let shadows = ShadowScene::new(gpu, Arc::new(baked.scene));
     let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
-    let decisions = |settings| Decisions::new(gpu, &buffers, &shadows, &view, size, settings);
-    let (of_a, of_b) = (decisions(a)?, decisions(b)?);
+    let case = Case { scene: &buffers, shadows: &shadows, view: &view, size };
+    let mut judge = Judge::new(gpu);
+    let (of_a, of_b) = (judge.decisions(gpu, case, a)?, judge.decisions(gpu, case, b)?);
     // The edges that may move are those of the truth, where it is one of the two.
     let is_truth_first = a.technique == ShadowTechnique::Raytraced;
     let (compared, reference) = if is_truth_first { (&of_b, &of_a) } else { (&of_a, &of_b) };

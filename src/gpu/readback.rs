@@ -9,7 +9,20 @@ use super::{Gpu, GpuError};
 /// # Errors
 /// The device was lost.
 pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) -> Result<Vec<u8>, GpuError> {
-    let size = texture.size();
+    read_aspect(gpu, texture.as_image_copy(), bytes_per_pixel)
+}
+
+/// The stencil of a whole single-sample texture, a byte a pixel.
+///
+/// # Errors
+/// The device was lost.
+pub fn read_stencil(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuError> {
+    let stencil = wgpu::TexelCopyTextureInfo { aspect: wgpu::TextureAspect::StencilOnly, ..texture.as_image_copy() };
+    read_aspect(gpu, stencil, 1)
+}
+
+fn read_aspect(gpu: &Gpu, source: wgpu::TexelCopyTextureInfo<'_>, bytes_per_pixel: u32) -> Result<Vec<u8>, GpuError> {
+    let size = source.texture.size();
     let row = size.width * bytes_per_pixel;
     let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
@@ -20,7 +33,7 @@ pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) ->
     });
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("readback") });
     encoder.copy_texture_to_buffer(
-        texture.as_image_copy(),
+        source,
         wgpu::TexelCopyBufferInfo {
             buffer: &buffer,
             layout: wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(padded_row), rows_per_image: None },

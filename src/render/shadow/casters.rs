@@ -38,6 +38,8 @@ pub struct Caster {
     pub corners: [u32; 3],
     /// Its parts.
     pub parts: std::ops::Range<u32>,
+    /// Shading normals of the corners.
+    pub normals: [Vec3; 3],
     /// From behind it may be invisible, and yet throws its shadow.
     pub is_single_sided: bool,
 }
@@ -82,7 +84,8 @@ impl Casters {
                 })
             });
             let is_single_sided = !material.double_sided;
-            casters.triangles.push(Caster { corners, parts: 0..0, is_single_sided });
+            let normals = triangle.vertices.map(|vertex| scene.vertices[vertex as usize].normal);
+            casters.triangles.push(Caster { corners, parts: 0..0, normals, is_single_sided });
         }
         let (low, high) = scene.bounds();
         let cuts = casters.cuts(ON_EDGE * (high - low).max_element());
@@ -161,6 +164,12 @@ impl Casters {
 
     fn at(&self, corner: u32) -> Vec3 {
         self.positions[corner as usize]
+    }
+
+    /// A triangle's parts.
+    #[must_use]
+    pub fn parts(&self, triangle: &Caster) -> &[[u32; 3]] {
+        &self.parts[triangle.parts.start as usize..triangle.parts.end as usize]
     }
 
     /// Corner positions of a triangle.

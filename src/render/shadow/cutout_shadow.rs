@@ -1,12 +1,15 @@
 //! Cut-out shadow pass: shadows of casters with holes, and of those that blend.
 //!
 //! A shadow volume knows the outline of a triangle and not the holes in its texture. So each visible point asks these
-//! triangles themselves whether the line to the light meets them where they are solid, and is marked in the stencil. The
-//! cost is points times triangles: scenes with more than [`MAX_TRIANGLES`] such triangles a material have the rest of
-//! them ignored.
+//! triangles themselves, through a tree of boxes, whether the line to the light meets them where they are solid, and is
+//! marked in the stencil.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec3A, Vec4};
+use obvhs::BvhBuildParams;
+use obvhs::aabb::Aabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::builder::build_bvh2;
 use wgpu::util::DeviceExt;
 
 use super::light_targets::depth_stencil_format;
@@ -19,8 +22,10 @@ use crate::gpu::scene_buffers::GpuVertex;
 use crate::gpu::{Gpu, shaders};
 use crate::scene::{AlphaMode, Scene};
 
-/// Triangles of one material that a point can ask.
-pub const MAX_TRIANGLES: usize = 512;
+/// Boxes are this much wider than what they hold, as a share of the scene's extent.
+const SLACK: f32 = 1e-5;
+/// A node of the tree that is no leaf.
+const NO_TRIANGLE: u32 = u32::MAX;
 /// What the stencil of a point in shadow holds, in those of its bits that count planar shadows too.
 const SHADOWED: u32 = 1;
 /// Alpha from which on a surface that blends counts as solid, as for rays.
@@ -42,6 +47,18 @@ struct CutoutCorner {
     solid_alpha: f32,
     uv: [Vec2; 2],
     colour: Vec4,
+}
+
+/// `CutoutNode` of shaders/cutout_shadow.wgsl: a box of the tree, its first child right behind it.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct CutoutNode {
+    low: Vec3,
+    /// The node to go on with where a line misses the box.
+    skip: u32,
+    high: Vec3,
+    /// The triangle of a leaf.
+    triangle: u32,
 }
 
 /// Casters with holes, of one material.
@@ -66,8 +83,7 @@ impl Cutouts {
 
     fn of_material(gpu: &Gpu, scene: &Scene, material: MaterialId) -> Option<Self> {
         let triangles = (0..scene.triangles.len())
-            .filter(|&t| scene.triangles[t].material == material && !scene.triangles[t].is_back_side)
-            .take(MAX_TRIANGLES);
+            .filter(|&t| scene.triangles[t].material == material && !scene.triangles[t].is_back_side);
         let solid_alpha = match scene.materials[material.index()].alpha_mode {
             AlphaMode::Mask { cutoff } => cutoff,
             AlphaMode::Opaque | AlphaMode::Blend => HALF_OPAQUE,
@@ -80,15 +96,24 @@ impl Cutouts {
         if corners.is_empty() {
             return None;
         }
-        let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-            label: Some("cut-outs"),
-            contents: bytemuck::cast_slice(&corners),
-            usage: wgpu::BufferUsages::STORAGE,
-        });
+        let (low, high) = scene.bounds();
+        let nodes = tree(&corners, SLACK * (high - low).max_element());
+        let buffer = |contents| {
+            let usage = wgpu::BufferUsages::STORAGE;
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+                label: Some("cut-outs"),
+                contents,
+                usage,
+            })
+        };
+        let (corners, nodes) = (buffer(bytemuck::cast_slice(&corners)), buffer(bytemuck::cast_slice(&nodes)));
         let triangles = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("cut-outs"),
             layout: &cutouts_layout(gpu),
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: buffer.as_entire_binding() }],
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: corners.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: nodes.as_entire_binding() },
+            ],
         });
         Some(Self { material, triangles })
     }
@@ -127,20 +152,49 @@ impl CutoutShadowPass {
     }
 }
 
+/// A tree over triangles of three corners each, depth first.
+fn tree(corners: &[CutoutCorner], slack: f32) -> Vec<CutoutNode> {
+    let boxes: Vec<Aabb> = corners
+        .chunks_exact(3)
+        .map(|triangle| {
+            let [a, b, c] = [0, 1, 2].map(|corner: usize| Vec3A::from(triangle[corner].position));
+            Aabb::new(a.min(b).min(c) - slack, a.max(b).max(c) + slack)
+        })
+        .collect();
+    let settings = BvhBuildParams { max_prims_per_leaf: 1, ..BvhBuildParams::medium_build() };
+    let binary = build_bvh2(&boxes, settings, &mut std::time::Duration::default());
+    let mut nodes = Vec::new();
+    lay_out(&binary, 0, &mut nodes);
+    nodes
+}
+
+fn lay_out(binary: &Bvh2, at: usize, nodes: &mut Vec<CutoutNode>) {
+    let (node, place) = (&binary.nodes[at], nodes.len());
+    let (low, high) = (node.aabb().min.into(), node.aabb().max.into());
+    nodes.push(CutoutNode { low, skip: 0, high, triangle: NO_TRIANGLE });
+    let first = node.first_index as usize;
+    if node.is_leaf() {
+        nodes[place].triangle = binary.primitive_indices[first];
+    } else {
+        lay_out(binary, first, nodes);
+        lay_out(binary, first + 1, nodes);
+    }
+    nodes[place].skip = nodes.len() as u32;
+}
+
 fn cutouts_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("cut-outs"),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        }],
-    })
+    let entry = |binding| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let entries = &[entry(0), entry(1)];
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("cut-outs"), entries })
 }
 
 fn pipeline(
@@ -191,5 +245,8 @@ mod tests {
             ($($field:ident),+) => { vec![$(offset_of!(CutoutCorner, $field)),+, size_of::<CutoutCorner>()] };
         }
         assert_eq!(offsets![position, solid_alpha, uv, colour], struct_layout(&CUTOUT_SHADOW, "CutoutCorner"));
+        let node = [offset_of!(CutoutNode, low), offset_of!(CutoutNode, skip), offset_of!(CutoutNode, high)];
+        let node = [node.as_slice(), &[offset_of!(CutoutNode, triangle), size_of::<CutoutNode>()]].concat();
+        assert_eq!(node, struct_layout(&CUTOUT_SHADOW, "CutoutNode"));
     }
 }

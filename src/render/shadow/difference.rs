@@ -33,27 +33,67 @@ pub struct ShadowDifference {
     pub is_too_bright: Vec<bool>,
 }
 
-impl Decisions {
-    /// Decisions of a technique about what `view` sees in `size` pixels.
+/// Asks techniques what they decide; its passes are made once.
+pub struct Judge {
+    layout: wgpu::BindGroupLayout,
+    light: RealTimeLight,
+}
+
+/// What is judged: a scene on the device, its shadows, and from where they are seen in how many pixels.
+#[derive(Clone, Copy)]
+pub struct Case<'a> {
+    /// On the device.
+    pub scene: &'a SceneBuffers,
+    /// Its casters and lights.
+    pub shadows: &'a ShadowScene,
+    /// From where.
+    pub view: &'a View,
+    /// Pixels across and down.
+    pub size: [u32; 2],
+}
+
+impl Judge {
+    /// Passes with one sample a pixel.
+    #[must_use]
+    pub fn new(gpu: &Gpu) -> Self {
+        let layout = frame_layout(gpu);
+        Self { light: RealTimeLight::new(gpu, &layout, 1), layout }
+    }
+
+    /// Decisions of a technique about all light samples.
     ///
     /// # Errors
     /// The device was lost.
-    pub fn new(
-        gpu: &Gpu,
-        scene: &SceneBuffers,
-        shadows: &ShadowScene,
-        view: &View,
-        size: [u32; 2],
-        settings: &ShadowSettings,
-    ) -> Result<Self, GpuError> {
-        let look = Look::default();
-        let layout = frame_layout(gpu);
-        let frame = frame_bind_group(gpu, &layout, scene, view, &look);
-        let subject = Subject { frame: &frame, scene, shadows, view, look: &look };
-        let samples = RealTimeLight::new(gpu, &layout, 1).decisions(gpu, size, subject, settings)?;
-        Ok(Self { size, samples })
+    pub fn decisions(&mut self, gpu: &Gpu, case: Case<'_>, settings: &ShadowSettings) -> Result<Decisions, GpuError> {
+        let samples = self.ask(gpu, case, |light, subject| light.decisions(gpu, case.size, subject, settings))?;
+        Ok(Decisions { size: case.size, samples })
     }
 
+    /// What the stencil holds after the shadows of light sample `index`, a byte a pixel.
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn stencil(
+        &mut self,
+        gpu: &Gpu,
+        case: Case<'_>,
+        settings: &ShadowSettings,
+        index: usize,
+    ) -> Result<Vec<u8>, GpuError> {
+        self.ask(gpu, case, |light, subject| light.stencil(gpu, case.size, subject, settings, index))
+    }
+
+    fn ask<T>(&mut self, gpu: &Gpu, case: Case<'_>, of: impl FnOnce(&mut RealTimeLight, Subject<'_>) -> T) -> T {
+        let look = Look::default();
+        let frame = frame_bind_group(gpu, &self.layout, case.scene, case.view, &look);
+        let Case { scene, shadows, view, .. } = case;
+        // The last case may have been another scene.
+        self.light.forget();
+        of(&mut self.light, Subject { frame: &frame, scene, shadows, view, look: &look })
+    }
+}
+
+impl Decisions {
     /// Pixels next to one with the other decision about a light sample.
     fn edges(&self, lit: &[bool]) -> Vec<bool> {
         let [width, height] = self.size.map(|side| side as usize);

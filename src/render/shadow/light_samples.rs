@@ -1,6 +1,6 @@
 //! The lights of a scene as points and directions, each with one hard shadow.
 //!
-//! A punctual light is one sample. An emissive surface is many: stratified over its area, each shines as the cosine to
+//! A punctual light is one sample, or many on a small ball round its place. An emissive surface is many: stratified over its area, each shines as the cosine to
 //! its normal with the surface's exitance times its share of the area, so that their sum tends to the irradiance that
 //! the bake finds in closed form.
 
@@ -55,19 +55,40 @@ impl LightSample {
     }
 }
 
-/// All light samples of a scene, `per_surface` for each emissive surface.
+/// All light samples of a scene: `per_lamp` for each emissive surface, and for each punctual light where it has a
+/// `radius` in metres, else one. Directional lights are infinitely far and stay one.
 #[must_use]
-pub fn light_samples(scene: &Scene, per_surface: u32) -> Vec<LightSample> {
-    let punctual = scene.lights.iter().enumerate();
-    let mut samples: Vec<_> =
-        punctual.map(|(lamp, light)| LightSample { light: light.clone(), surface_normal: None, lamp }).collect();
+pub fn light_samples(scene: &Scene, per_lamp: u32, radius: f32) -> Vec<LightSample> {
+    let mut samples = Vec::new();
+    for (lamp, light) in scene.lights.iter().enumerate() {
+        add_punctual(light, lamp, if radius > 0.0 { per_lamp } else { 1 }, radius, &mut samples);
+    }
     let (low, high) = scene.bounds();
     let height = HEIGHT * (high - low).max_element();
     for (number, surface) in surfaces(scene).iter().enumerate() {
-        surface.add_samples(scene, per_surface, height, scene.lights.len() + number, &mut samples);
+        surface.add_samples(scene, per_lamp, height, scene.lights.len() + number, &mut samples);
     }
     samples.retain(|sample| sample.light.intensity.max_element() > 0.0);
     samples
+}
+
+/// A punctual light as `count` equal points, spread evenly on a ball (a Fibonacci lattice); one point is its middle.
+fn add_punctual(light: &Light, lamp: usize, count: u32, radius: f32, samples: &mut Vec<LightSample>) {
+    let (LightKind::Point { position } | LightKind::Spot { position, .. }) = light.kind else {
+        samples.push(LightSample { light: light.clone(), surface_normal: None, lamp });
+        return;
+    };
+    for index in 0..count {
+        let height = 1.0 - (2 * index + 1) as f32 / count as f32;
+        let (sin, cos) = (index as f32 * GOLDEN * std::f32::consts::TAU).sin_cos();
+        let ring = if count > 1 { (1.0 - height * height).sqrt() } else { 0.0 };
+        let mut part = light.clone();
+        part.intensity /= count as f32;
+        if let LightKind::Point { position: place } | LightKind::Spot { position: place, .. } = &mut part.kind {
+            *place = position + radius * Vec3::new(ring * cos, height, ring * sin);
+        }
+        samples.push(LightSample { light: part, surface_normal: None, lamp });
+    }
 }
 
 /// Emissive triangles of one instance, material, side and place.
@@ -226,16 +247,34 @@ mod tests {
         // F = 2 / (2 pi) x a / sqrt(a^2 + c^2) x atan(a / sqrt(a^2 + c^2)), with a = c = 1.
         let half: f32 = 0.5f32.sqrt();
         let expected = PI * 4.0 * half * half.atan() / PI;
-        let samples = light_samples(&panel(false), 256);
+        let samples = light_samples(&panel(false), 256, 0.0);
         assert_eq!(samples.len(), 256);
         let sum: Vec3 = samples.iter().map(|sample| sample.irradiance(Vec3::ZERO, Vec3::Y)).sum();
         assert!((sum.x / expected - 1.0).abs() < 4e-3, "{sum}, not {expected}");
     }
 
     #[test]
+    fn a_light_with_a_radius_is_a_ball_of_points_as_strong_together() {
+        let light = |kind| Light { name: String::new(), kind, intensity: Vec3::ONE, range: None, group: GroupId(0) };
+        let position = Vec3::new(1.0, 2.0, 3.0);
+        let lights =
+            vec![light(LightKind::Point { position }), light(LightKind::Directional { direction: Vec3::NEG_Y })];
+        let scene = Scene { lights, ..Scene::default() };
+        assert_eq!(light_samples(&scene, 64, 0.0).len(), 2);
+        assert_eq!(light_samples(&scene, 1, 0.3)[0].place(), position.extend(1.0));
+        let samples = light_samples(&scene, 64, 0.3);
+        let ball: Vec<_> = samples.iter().filter(|sample| sample.lamp == 0).collect();
+        assert_eq!((ball.len(), samples.len()), (64, 65));
+        assert!(ball.iter().all(|s| (s.place().truncate().distance(position) - 0.3).abs() < 1e-5));
+        let total: f32 = ball.iter().map(|sample| sample.light.intensity.x).sum();
+        let mean = ball.iter().map(|sample| sample.place().truncate()).sum::<Vec3>() / 64.0;
+        assert!((total - 1.0).abs() < 1e-5 && mean.distance(position) < 0.01, "{total}, {mean}");
+    }
+
+    #[test]
     fn a_panel_shines_on_its_front_and_a_double_sided_one_on_both() {
         let above = |scene: &Scene| -> Vec3 {
-            light_samples(scene, 4).iter().map(|sample| sample.irradiance(2.0 * Vec3::Y, Vec3::NEG_Y)).sum()
+            light_samples(scene, 4, 0.0).iter().map(|sample| sample.irradiance(2.0 * Vec3::Y, Vec3::NEG_Y)).sum()
         };
         assert_eq!(above(&panel(false)), Vec3::ZERO);
         assert!(above(&panel(true)).x > 0.1);

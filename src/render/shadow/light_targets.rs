@@ -28,6 +28,8 @@ pub struct LightTargets {
     pub size: [u32; 2],
     /// Of each sample.
     pub depth_stencil: wgpu::TextureView,
+    /// What `depth_stencil` is a view of.
+    pub depth_stencil_texture: wgpu::Texture,
     /// Irradiance times pre-exposure; the fourth channel counts the light samples that are seen.
     pub irradiance: wgpu::Texture,
     /// View of `irradiance`.
@@ -54,10 +56,11 @@ impl LightTargets {
         let copied = if samples > 1 { wgpu::TextureUsages::empty() } else { wgpu::TextureUsages::COPY_SRC };
         let read = wgpu::TextureUsages::TEXTURE_BINDING;
         let irradiance = texture("direct irradiance", irradiance_format(gpu, samples), drawn | read | copied);
+        let depth_stencil = texture("depth and stencil", depth_stencil_format(gpu), drawn | copied);
         Self {
             size,
-            depth_stencil: texture("depth and stencil", depth_stencil_format(gpu), drawn)
-                .create_view(&Default::default()),
+            depth_stencil: depth_stencil.create_view(&Default::default()),
+            depth_stencil_texture: depth_stencil,
             irradiance_view: irradiance.create_view(&Default::default()),
             irradiance,
         }

@@ -18,19 +18,25 @@ pub mod silhouette;
 mod cutout_shadow;
 mod depth_prepass;
 mod direct_light;
+mod exact_rays;
+mod flattening;
 mod light_targets;
 mod light_uniforms;
 mod near_plane;
 mod raytraced;
 mod solid;
+mod visible_points;
+mod volume_pipelines;
 
-pub use difference::{Decisions, ShadowDifference, shadow_difference};
+pub use difference::{Case, Decisions, Judge, ShadowDifference, shadow_difference};
 pub use light_samples::{LightSample, light_samples};
 pub use planar_shadow::PlanarSettings;
 pub use real_time::RealTimeLight;
 pub use scene::ShadowScene;
 pub use shadow_map::MapSettings;
 pub use shadow_volume::VolumeSettings;
+
+use crate::scene::Scene;
 
 /// How shadows are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,8 +60,10 @@ pub enum ShadowTechnique {
 pub struct ShadowSettings {
     /// How shadows are found.
     pub technique: ShadowTechnique,
-    /// Points on each emissive surface, 1 to 256; each throws one hard shadow.
+    /// Points on each lamp that has a size, 1 to 256; each throws one hard shadow.
     pub light_samples: u32,
+    /// Size that point and spot lights are given, metres; 0 leaves them points.
+    pub light_radius: f32,
     /// Of planar shadows.
     pub planar: PlanarSettings,
     /// Of shadow maps.
@@ -65,12 +73,19 @@ pub struct ShadowSettings {
 }
 
 impl ShadowSettings {
+    /// The lights of a scene as points and directions.
+    #[must_use]
+    pub fn samples(&self, scene: &Scene) -> Vec<LightSample> {
+        light_samples(scene, self.light_samples, self.light_radius)
+    }
+
     /// `technique` with the settings that show none of its faults.
     #[must_use]
     pub fn new(technique: ShadowTechnique) -> Self {
         Self {
             technique,
             light_samples: 1,
+            light_radius: 0.0,
             planar: PlanarSettings::default(),
             maps: MapSettings::default(),
             volumes: VolumeSettings::default(),

@@ -6,17 +6,13 @@
 //! plane and at the light's height (else what is below throws shadows up, and what is above the light throws some too).
 //! Deliberately absent: shadows on anything but planes.
 
-use std::collections::HashMap;
-
-use glam::{Mat4, Vec3, Vec4};
+use glam::Vec4;
 use wgpu::util::DeviceExt;
 
-use super::casters::Casters;
+use super::flattening::{Receiver, flattened, receivers};
 use super::light_targets::depth_stencil_format;
 use super::real_time::Subject;
-use crate::base::ids::TriangleId;
 use crate::gpu::{Gpu, shaders};
-use crate::scene::{AlphaMode, Scene, area_of, normal_of};
 
 /// Stencil bits that count shadows.
 pub const SHADOWS: u32 = 0x07;
@@ -28,10 +24,7 @@ const RECEIVER: u32 = 0x08;
 pub const MAX_RECEIVERS: usize = 31;
 /// Lifts shadows that are free to stick out over their receivers.
 const LIFT: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: 16, slope_scale: 1.0, clamp: 0.0 };
-/// Normals closer than this are one direction; distances by this share of the scene's extent are one plane.
-const SAME_NORMAL: f32 = 1e-4;
-const SAME_DISTANCE: f32 = 1e-5;
-/// Casters within this share of the scene's extent of a plane lie in it.
+/// What is within this share of the scene's extent of a plane lies in it.
 const CLEARANCE: f32 = 2e-5;
 
 /// How planar shadows are drawn.
@@ -59,95 +52,6 @@ impl Default for PlanarSettings {
             clips_casters: true,
         }
     }
-}
-
-/// A plane that receives shadows.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Receiver {
-    /// Unit normal and distance: points with n . p + w = 0.
-    pub plane: Vec4,
-    /// Its triangles.
-    pub triangles: Vec<TriangleId>,
-    /// Square metres.
-    pub area: f32,
-}
-
-/// The `count` planes of a scene on which most area lies.
-#[must_use]
-pub fn receivers(scene: &Scene, count: usize) -> Vec<Receiver> {
-    let (low, high) = scene.bounds();
-    let step = SAME_DISTANCE * (high - low).max_element().max(f32::MIN_POSITIVE);
-    let mut planes: HashMap<[i64; 4], Receiver> = HashMap::new();
-    for t in 0..scene.triangles.len() {
-        let id = TriangleId::new(t);
-        let corners = scene.corners(id);
-        let normal = normal_of(corners);
-        if normal == Vec3::ZERO || scene.material_of(id).alpha_mode == AlphaMode::Blend {
-            continue;
-        }
-        let distance = -normal.dot((corners[0] + corners[1] + corners[2]) / 3.0);
-        let [x, y, z] = normal.to_array().map(|n| (n / SAME_NORMAL).round() as i64);
-        let key = [x, y, z, (distance / (10.0 * step)).round() as i64];
-        let plane = normal.extend(distance);
-        let receiver = planes.entry(key).or_insert(Receiver { plane, triangles: Vec::new(), area: 0.0 });
-        receiver.triangles.push(id);
-        receiver.area += area_of(corners);
-    }
-    let mut receivers: Vec<Receiver> = planes.into_values().collect();
-    receivers.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.triangles[0].cmp(&b.triangles[0])));
-    receivers.truncate(count);
-    receivers
-}
-
-/// Flattens on to `plane` as a light at the homogeneous `light` does.
-///
-/// Equation: M = (P . L) I - L P^T.
-#[must_use]
-pub fn flattening(plane: Vec4, light: Vec4) -> Mat4 {
-    let outer = Mat4::from_cols(light * plane.x, light * plane.y, light * plane.z, light * plane.w);
-    Mat4::from_diagonal(Vec4::splat(plane.dot(light))) - outer
-}
-
-/// Triangles flattened on to a plane, three homogeneous corners each, w > 0 where `clips`.
-#[must_use]
-pub fn flattened(casters: &Casters, plane: Vec4, light: Vec4, clips: bool, clearance: f32) -> Vec<Vec4> {
-    let matrix = flattening(plane, light);
-    let height_of_light = if light.w == 0.0 { f32::INFINITY } else { plane.dot(light) };
-    let mut corners = Vec::new();
-    for triangle in &casters.triangles {
-        let polygon = casters.corners(triangle);
-        if !clips {
-            corners.extend(polygon.map(|corner| matrix * corner.extend(1.0)));
-            continue;
-        }
-        let height = |corner: Vec3| plane.dot(corner.extend(1.0));
-        let above = clip(&polygon, |corner| height(corner) - clearance);
-        let between = if height_of_light.is_finite() {
-            clip(&above, |corner| height_of_light - clearance - height(corner))
-        } else {
-            above
-        };
-        for i in 2..between.len() {
-            corners.extend([0, i - 1, i].map(|corner| matrix * between[corner].extend(1.0)));
-        }
-    }
-    corners
-}
-
-/// The part of a convex polygon where `inside` is not negative (Sutherland, Hodgman 1974).
-fn clip(polygon: &[Vec3], inside: impl Fn(Vec3) -> f32) -> Vec<Vec3> {
-    let mut kept = Vec::with_capacity(polygon.len() + 1);
-    for (i, &this) in polygon.iter().enumerate() {
-        let next = polygon[(i + 1) % polygon.len()];
-        let (of_this, of_next) = (inside(this), inside(next));
-        if of_this >= 0.0 {
-            kept.push(this);
-        }
-        if (of_this >= 0.0) != (of_next >= 0.0) {
-            kept.push(this.lerp(next, of_this / (of_this - of_next)));
-        }
-    }
-    kept
 }
 
 /// Planar shadow pass.
@@ -288,35 +192,4 @@ fn pipeline(
         multiview_mask: None,
         cache: None,
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const FLOOR: Vec4 = Vec4::Y;
-
-    #[test]
-    fn a_point_is_flattened_along_the_line_from_the_light() {
-        let light = Vec4::new(0.0, 4.0, 0.0, 1.0);
-        let flat = (flattening(FLOOR, light) * Vec4::new(1.0, 2.0, 0.5, 1.0)).to_array();
-        assert!(
-            (flat[0] / flat[3] - 2.0).abs() < 1e-6 && flat[1].abs() < 1e-6 && (flat[2] / flat[3] - 1.0).abs() < 1e-6
-        );
-        let sun = Vec4::new(0.6, 0.8, 0.0, 0.0);
-        let flat = (flattening(FLOOR, sun) * Vec4::new(1.0, 2.0, 0.5, 1.0)).to_array();
-        assert!((flat[0] / flat[3] + 0.5).abs() < 1e-6, "{flat:?}");
-    }
-
-    #[test]
-    fn casters_are_cut_at_the_plane_and_below_the_light() {
-        let positions = vec![Vec3::new(0.0, -1.0, 0.0), Vec3::new(1.0, 9.0, 0.0), Vec3::new(0.0, 9.0, 1.0)];
-        let triangle = super::super::casters::Caster { corners: [0, 1, 2], parts: 0..0, is_single_sided: false };
-        let casters = Casters { positions, triangles: vec![triangle], ..Casters::default() };
-        let light = Vec4::new(0.0, 4.0, 0.0, 1.0);
-        let cut = flattened(&casters, FLOOR, light, true, 1e-3);
-        assert_eq!(cut.len(), 6, "a quadrilateral");
-        assert!(cut.iter().all(|corner| corner.w > 0.0));
-        assert!(flattened(&casters, FLOOR, light, false, 1e-3).iter().any(|corner| corner.w < 0.0));
-    }
 }

@@ -1,132 +1,51 @@
-//! Ray-traced shadows: the truth. One ray from each visible point to each light sample, on the CPU.
+//! Ray-traced shadows: the truth. One line of sight from each visible point to each light sample, on the CPU.
 //!
-//! The points are those that the depth prepass found, at the middle of each pixel, so that nothing but the shadow
-//! differs from the other techniques. With several samples a pixel all of them share that one point.
+//! The raster says which surface a pixel shows, so that nothing but the shadow differs from the other techniques; all
+//! else is found anew in double precision: the point where the line through the middle of the pixel meets a triangle,
+//! the side that this triangle turns to the light, and what stands between. With several samples a pixel all of them
+//! share that one point.
 
-use glam::{Vec3, Vec4};
+use glam::{DMat4, DVec2, DVec3, DVec4, Vec3, Vec4};
 use rayon::prelude::*;
 use wgpu::util::DeviceExt;
 
 use super::depth_prepass::DepthPrepass;
+use super::exact_rays::{ExactRays, Line};
 use super::light_samples::LightSample;
-use super::light_targets::{LightTargets, depth_stencil_format};
+use super::light_targets::LightTargets;
 use super::real_time::Subject;
-use super::solid::SolidPipelines;
-use crate::base::ids::TriangleId;
-use crate::gpu::readback::read_texture;
-use crate::gpu::scene_buffers::GpuVertex;
-use crate::gpu::{Gpu, GpuError, SceneBuffers, shaders};
-use crate::render::{Look, View};
-use crate::trace::Tracer;
+use super::visible_points::{VisiblePoint, VisiblePoints};
+use crate::gpu::{Gpu, GpuError};
+use crate::render::View;
 
-/// A ray begins this share of the way from its point to the eye: on the side that is seen, beyond rounding.
-const TOWARDS_EYE: f32 = 1e-5;
-
-/// A visible point.
-#[derive(Clone, Copy, Debug)]
-struct VisiblePoint {
-    /// Metres.
-    point: Vec3,
-    /// Unit shading normal on the side that is seen.
-    normal: Vec3,
-    /// The triangle on which it lies, where a ray from the eye finds it again.
-    triangle: Option<TriangleId>,
-}
-
-/// Finds visible points.
-struct VisiblePoints {
-    pipelines: SolidPipelines,
-}
-
-impl VisiblePoints {
-    /// Pipelines for targets with one sample a pixel.
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
-        let module = shaders::VISIBLE_POINTS.module(&gpu.device);
-        let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("visible points"),
-            bind_group_layouts: &[Some(frame_layout)],
-            immediate_size: 0,
-        });
-        Self { pipelines: SolidPipelines::new(|cull| pipeline(gpu, &layout, &module, cull)) }
-    }
-
-    /// The visible point of each pixel, after the depth prepass has been submitted.
-    ///
-    /// # Errors
-    /// The device was lost.
-    pub fn find(
-        &self,
-        gpu: &Gpu,
-        targets: &LightTargets,
-        frame: &wgpu::BindGroup,
-        scene: &SceneBuffers,
-        look: &Look,
-    ) -> Result<Vec<Option<VisiblePoint>>, GpuError> {
-        let textures = [texture(gpu, targets.size), texture(gpu, targets.size)];
-        let mut encoder =
-            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("visible points") });
-        self.draw(
-            &mut encoder,
-            targets,
-            &textures.each_ref().map(|t| t.create_view(&Default::default())),
-            frame,
-            scene,
-            look,
-        );
-        gpu.queue.submit([encoder.finish()]);
-        let points = read_texture(gpu, &textures[0], 16)?;
-        let normals = read_texture(gpu, &textures[1], 16)?;
-        let pixel = |(point, normal): (&[u8; 16], &[u8; 16])| {
-            let ([x, y, z, is_there], [nx, ny, nz, _]) = (floats(point), floats(normal));
-            (is_there > 0.0).then_some(VisiblePoint {
-                point: Vec3::new(x, y, z),
-                normal: Vec3::new(nx, ny, nz),
-                triangle: None,
-            })
-        };
-        Ok(points.as_chunks::<16>().0.iter().zip(normals.as_chunks::<16>().0).map(pixel).collect())
-    }
-
-    fn draw(
-        &self,
-        encoder: &mut wgpu::CommandEncoder,
-        targets: &LightTargets,
-        views: &[wgpu::TextureView; 2],
-        frame: &wgpu::BindGroup,
-        scene: &SceneBuffers,
-        look: &Look,
-    ) {
-        let attachments = views.each_ref().map(|view| {
-            Some(wgpu::RenderPassColorAttachment {
-                view,
-                depth_slice: None,
-                resolve_target: None,
-                ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
-                    store: wgpu::StoreOp::Store,
-                },
-            })
-        });
-        let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("visible points"),
-            color_attachments: &attachments,
-            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-                view: &targets.depth_stencil,
-                depth_ops: None,
-                stencil_ops: None,
-            }),
-            ..Default::default()
-        });
-        pass.set_bind_group(0, frame, &[]);
-        self.pipelines.draw(&mut pass, scene, look);
-    }
-}
+/// A line of sight begins this share of the way from its point to the eye: what lies in the same place as the surface
+/// that is seen does not shade it.
+const TOWARDS_EYE: f64 = 1e-5;
+/// Depth of a point by which the line through a pixel is laid.
+const SOME_DEPTH: f64 = 0.5;
+/// As far as the raster moves the corners of triangles, pixels, with room to spare.
+const SNAP: f64 = 1.0 / 128.0;
+const CORNERS: [DVec2; 4] = [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE];
+/// Places on a line this close to one another, as a share of their distance, are one.
+const SAME_PLACE: f64 = 1e-3;
+/// Cosine between a triangle's normal and a shading normal of its own.
+const ALIKE: f64 = 0.9;
 
 /// Direct light by rays, for pictures of any number of samples a pixel.
 pub struct RaytracedLight {
     prepass: DepthPrepass,
     points: VisiblePoints,
     targets: Option<LightTargets>,
+}
+
+/// A visible point, found again in double precision.
+struct Place {
+    /// Where lines of sight begin, metres.
+    origin: DVec3,
+    /// What the raster found.
+    visible: VisiblePoint,
+    /// Corners of the triangle, unless the line through the pixel misses it by a hair.
+    triangle: Option<[DVec3; 3]>,
 }
 
 impl RaytracedLight {
@@ -148,19 +67,18 @@ impl RaytracedLight {
         subject: Subject<'_>,
         samples: &[LightSample],
     ) -> wgpu::TextureView {
-        let tracer = Tracer::new(subject.shadows.scene());
-        let points = self.points(gpu, size, subject, &tracer).unwrap_or_default();
-        let of = |visible: &VisiblePoint| {
+        let places = self.places(gpu, size, subject).unwrap_or_default();
+        let of = |place: &Place| {
             let mut sum = Vec4::ZERO;
             for sample in samples {
-                let received = received(subject, visible, sample);
-                if received.max_element() > 0.0 && is_lit(&tracer, subject.view, visible, sample) {
+                let received = received(subject, &place.visible, sample);
+                if received.max_element() > 0.0 && is_lit(subject, place, sample) {
                     sum += (received * subject.scene.pre_exposure).extend(1.0);
                 }
             }
             sum
         };
-        let mut irradiance: Vec<Vec4> = points.par_iter().map(|point| point.as_ref().map_or(Vec4::ZERO, of)).collect();
+        let mut irradiance: Vec<Vec4> = places.par_iter().map(|place| place.as_ref().map_or(Vec4::ZERO, of)).collect();
         irradiance.resize((size[0] * size[1]) as usize, Vec4::ZERO);
         upload(gpu, size, &irradiance)
     }
@@ -176,24 +94,16 @@ impl RaytracedLight {
         subject: Subject<'_>,
         samples: &[LightSample],
     ) -> Result<Vec<Vec<bool>>, GpuError> {
-        let tracer = Tracer::new(subject.shadows.scene());
-        let points = self.points(gpu, size, subject, &tracer)?;
-        let lights = |sample: &LightSample, visible: &VisiblePoint| {
-            received(subject, visible, sample).max_element() > 0.0 && is_lit(&tracer, subject.view, visible, sample)
+        let places = self.places(gpu, size, subject)?;
+        let lights = |sample: &LightSample, place: &Place| {
+            received(subject, &place.visible, sample).max_element() > 0.0 && is_lit(subject, place, sample)
         };
-        let of_sample = |sample| {
-            points.par_iter().map(|point| point.as_ref().is_some_and(|visible| lights(sample, visible))).collect()
-        };
+        let of_sample =
+            |sample| places.par_iter().map(|place| place.as_ref().is_some_and(|place| lights(sample, place))).collect();
         Ok(samples.iter().map(of_sample).collect())
     }
 
-    fn points(
-        &mut self,
-        gpu: &Gpu,
-        size: [u32; 2],
-        subject: Subject<'_>,
-        tracer: &Tracer<'_>,
-    ) -> Result<Vec<Option<VisiblePoint>>, GpuError> {
+    fn places(&mut self, gpu: &Gpu, size: [u32; 2], subject: Subject<'_>) -> Result<Vec<Option<Place>>, GpuError> {
         let targets = match self.targets.take() {
             Some(targets) if targets.size == size => targets,
             _ => LightTargets::new(gpu, size, 1),
@@ -203,12 +113,83 @@ impl RaytracedLight {
         gpu.queue.submit([encoder.finish()]);
         let points = self.points.find(gpu, &targets, subject.frame, subject.scene, subject.look);
         self.targets = Some(targets);
-        let mut points = points?;
-        points
-            .par_iter_mut()
-            .flatten()
-            .for_each(|point| point.triangle = triangle_at(tracer, subject.view, point.point));
-        Ok(points)
+        let lines = PixelLines::new(subject.view, size);
+        let rays = subject.shadows.rays();
+        let place = |(pixel, visible): (usize, Option<VisiblePoint>)| {
+            visible.map(|visible| Place::new(rays, &lines, pixel, visible))
+        };
+        Ok(points?.into_par_iter().enumerate().map(place).collect())
+    }
+}
+
+/// The lines through the middles of a picture's pixels, in double precision.
+struct PixelLines {
+    world_from_projection: DMat4,
+    /// Homogeneous.
+    eye: DVec4,
+    size: [u32; 2],
+}
+
+impl PixelLines {
+    fn new(view: &View, size: [u32; 2]) -> Self {
+        let world_from_projection = view.projection_from_world().as_dmat4().inverse();
+        Self { world_from_projection, eye: view.eye().as_dvec4(), size }
+    }
+
+    /// From the near plane away from the eye, so many pixels off the middle.
+    fn through(&self, pixel: usize, off: DVec2) -> Line {
+        let [width, height] = self.size.map(f64::from);
+        let (column, row) = ((pixel % self.size[0] as usize) as f64, (pixel / self.size[0] as usize) as f64);
+        let (x, y) = (2.0 * (column + 0.5 + off.x) / width - 1.0, 1.0 - 2.0 * (row + 0.5 + off.y) / height);
+        let at = |depth| self.world_from_projection.project_point3(DVec3::new(x, y, depth));
+        let origin = at(1.0);
+        Line { origin, direction: (at(SOME_DEPTH) - origin).normalize(), reach: f64::INFINITY }
+    }
+
+    /// From a point to the eye, metres; one metre towards it where it is infinitely far.
+    fn towards_eye(&self, point: DVec3) -> DVec3 {
+        self.eye.truncate() - self.eye.w * point
+    }
+}
+
+impl Place {
+    /// The place of a triangle that the raster shows in a pixel.
+    fn new(rays: &ExactRays, lines: &PixelLines, pixel: usize, visible: VisiblePoint) -> Self {
+        let middle = lines.through(pixel, DVec2::ZERO);
+        let found = Found::new(rays, lines, middle, &visible).filter(Found::is_clear).or_else(|| {
+            // On the edge of a triangle: the raster, which snaps corners to a part of a pixel, may show another than
+            // the line through the middle meets.
+            let beside = CORNERS.map(|corner| lines.through(pixel, SNAP * corner));
+            let found = [middle].into_iter().chain(beside).filter_map(|line| Found::new(rays, lines, line, &visible));
+            found.max_by(|a, b| a.likeness.total_cmp(&b.likeness))
+        });
+        let point = found.as_ref().map_or(visible.point.as_dvec3(), |found| found.point);
+        let origin = point + TOWARDS_EYE * lines.towards_eye(point);
+        Self { origin, visible, triangle: found.map(|found| found.corners) }
+    }
+}
+
+/// A triangle where the raster found a point.
+struct Found {
+    point: DVec3,
+    corners: [DVec3; 3],
+    /// Cosine between its normal and that which the raster found, on the side that is seen.
+    likeness: f64,
+}
+
+impl Found {
+    fn new(rays: &ExactRays, lines: &PixelLines, line: Line, visible: &VisiblePoint) -> Option<Self> {
+        let rough = (visible.point.as_dvec3() - line.origin).dot(line.direction);
+        let met = rays.nearest_to(line, rough).filter(|met| (met.distance - rough).abs() <= SAME_PLACE * rough)?;
+        let (point, corners) = (line.origin + line.direction * met.distance, rays.corners(met.triangle));
+        let normal = front_normal(corners).normalize_or_zero();
+        let seen = if normal.dot(lines.towards_eye(point)) < 0.0 { -normal } else { normal };
+        Some(Self { point, corners, likeness: seen.dot(visible.normal.as_dvec3()) })
+    }
+
+    /// Beyond doubt the triangle that the raster shows.
+    fn is_clear(&self) -> bool {
+        self.likeness > ALIKE
     }
 }
 
@@ -217,34 +198,26 @@ fn received(subject: Subject<'_>, visible: &VisiblePoint, sample: &LightSample) 
     sample.irradiance(visible.point, visible.normal) * subject.look.group_weight(sample.light.group)
 }
 
-/// The triangle that the eye sees at a point.
-fn triangle_at(tracer: &Tracer<'_>, view: &View, point: Vec3) -> Option<TriangleId> {
-    let back = 10.0 * TOWARDS_EYE * view.towards_eye(point);
-    tracer.nearest(point + back, -back, 2.0).map(|hit| hit.triangle)
-}
-
 /// Nothing solid stands between a visible point and a light sample, and its triangle shows the light the side it shows
 /// the eye.
-fn is_lit(tracer: &Tracer<'_>, view: &View, visible: &VisiblePoint, sample: &LightSample) -> bool {
-    let place = sample.place();
-    if visible.triangle.is_some_and(|id| turns_its_back(tracer.scene().corners(id), view.eye(), place)) {
+fn is_lit(subject: Subject<'_>, place: &Place, sample: &LightSample) -> bool {
+    let light = sample.place().as_dvec4();
+    let eye = subject.view.eye().as_dvec4();
+    if place.triangle.is_some_and(|corners| turns_its_back(corners, eye, light)) {
         return false;
     }
-    let origin = visible.point + TOWARDS_EYE * view.towards_eye(visible.point);
-    if place.w == 0.0 {
-        return tracer.nearest(origin, place.truncate(), f32::INFINITY).is_none();
-    }
-    let to_light = place.truncate() - origin;
-    tracer.nearest(origin, to_light.normalize_or_zero(), to_light.length()).is_none()
+    !subject.shadows.rays().is_blocked(Line::between(place.origin, light))
 }
 
-/// The eye and the light, both homogeneous, are on different sides of a triangle. In double precision, as a ray cannot
-/// tell where light grazes the triangle.
-fn turns_its_back(corners: [Vec3; 3], eye: Vec4, light: Vec4) -> bool {
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
-    let normal = (b - a).cross(c - a);
-    let height = |place: Vec4| normal.dot(place.truncate().as_dvec3() - f64::from(place.w) * a);
+/// The eye and the light, both homogeneous, are on different sides of a triangle.
+fn turns_its_back(corners: [DVec3; 3], eye: DVec4, light: DVec4) -> bool {
+    let normal = front_normal(corners);
+    let height = |place: DVec4| normal.dot(place.truncate() - place.w * corners[0]);
     height(eye) * height(light) < 0.0
+}
+
+fn front_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
+    (b - a).cross(c - a)
 }
 
 /// A texture of one sample a pixel that holds irradiance.
@@ -266,57 +239,4 @@ fn upload(gpu: &Gpu, size: [u32; 2], irradiance: &[Vec4]) -> wgpu::TextureView {
         bytemuck::cast_slice(irradiance),
     );
     texture.create_view(&Default::default())
-}
-
-fn floats(bytes: &[u8; 16]) -> [f32; 4] {
-    std::array::from_fn(|i| f32::from_le_bytes([bytes[4 * i], bytes[4 * i + 1], bytes[4 * i + 2], bytes[4 * i + 3]]))
-}
-
-fn texture(gpu: &Gpu, size: [u32; 2]) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("visible points"),
-        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba32Float,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
-}
-
-fn pipeline(
-    gpu: &Gpu,
-    layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-    cull_mode: Option<wgpu::Face>,
-) -> wgpu::RenderPipeline {
-    let target = Some(wgpu::TextureFormat::Rgba32Float.into());
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("visible points"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(GpuVertex::LAYOUT)],
-        },
-        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: depth_stencil_format(gpu),
-            depth_write_enabled: Some(false),
-            depth_compare: Some(wgpu::CompareFunction::Equal),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some("fragment"),
-            compilation_options: Default::default(),
-            targets: &[target.clone(), target],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
 }

@@ -3,7 +3,7 @@
 use super::cutout_shadow::CutoutShadowPass;
 use super::depth_prepass::DepthPrepass;
 use super::direct_light::{self, DirectLightPass, Lit, WHERE_UNSHADOWED};
-use super::light_samples::{LightSample, light_samples};
+use super::light_samples::LightSample;
 use super::light_targets::LightTargets;
 use super::light_uniforms::{LightUniforms, light_sample_layout};
 use super::planar_shadow::{ON_RECEIVER, PlanarShadowPass, SHADOWS};
@@ -12,7 +12,7 @@ use super::shadow_map::ShadowMapPass;
 use super::shadow_volume::ShadowVolumePass;
 use super::silhouette::Counting;
 use super::{ShadowScene, ShadowSettings, ShadowTechnique};
-use crate::gpu::readback::read_texture;
+use crate::gpu::readback::{read_stencil, read_texture};
 use crate::gpu::{Gpu, GpuError, SceneBuffers, shaders};
 use crate::render::picture::f32_from_half;
 use crate::render::{Look, View};
@@ -114,7 +114,7 @@ impl RealTimeLight {
         subject: Subject<'_>,
         settings: &ShadowSettings,
     ) -> wgpu::TextureView {
-        let samples = light_samples(subject.shadows.scene(), settings.light_samples);
+        let samples = settings.samples(subject.shadows.scene());
         if settings.technique == ShadowTechnique::Raytraced {
             return self.raytraced.draw(gpu, size, subject, &samples);
         }
@@ -144,7 +144,7 @@ impl RealTimeLight {
         settings: &ShadowSettings,
     ) -> Result<Vec<SampleDecisions>, GpuError> {
         assert_eq!(self.samples, 1, "decisions are taken pixel by pixel");
-        let samples = light_samples(subject.shadows.scene(), settings.light_samples);
+        let samples = settings.samples(subject.shadows.scene());
         if settings.technique == ShadowTechnique::Raytraced {
             let lit = self.raytraced.decisions(gpu, size, subject, &samples)?;
             return Ok(lit.into_iter().map(|lit| SampleDecisions { lit, claimed: None }).collect());
@@ -166,6 +166,31 @@ impl RealTimeLight {
         }
         self.targets = Some(targets);
         Ok(decisions)
+    }
+
+    /// What the stencil holds after the shadows of one light sample, a byte a pixel; for passes with one sample a pixel.
+    ///
+    /// # Errors
+    /// The device was lost.
+    pub fn stencil(
+        &mut self,
+        gpu: &Gpu,
+        size: [u32; 2],
+        subject: Subject<'_>,
+        settings: &ShadowSettings,
+        index: usize,
+    ) -> Result<Vec<u8>, GpuError> {
+        let samples = settings.samples(subject.shadows.scene());
+        let targets = self.targets_of(gpu, size);
+        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
+        self.prepare(gpu, subject, &samples, settings);
+        let mut encoder = gpu.device.create_command_encoder(&Default::default());
+        self.prepass.draw(&mut encoder, &targets, subject.frame, subject.scene, subject.look);
+        self.mark_shadows(gpu, &mut encoder, &targets, subject, settings, &lights, (index, &samples[index]));
+        gpu.queue.submit([encoder.finish()]);
+        let stencil = read_stencil(gpu, &targets.depth_stencil_texture);
+        self.targets = Some(targets);
+        stencil
     }
 
     /// Pixels on receivers of planar shadows that a light sample reaches or would reach.
@@ -209,6 +234,31 @@ impl RealTimeLight {
         }
     }
 
+    /// Marks in the stencil what is in the shadow of one light sample, where the technique tells it so.
+    #[expect(clippy::too_many_arguments, reason = "where to draw, what of it and how")]
+    fn mark_shadows(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &LightTargets,
+        subject: Subject<'_>,
+        settings: &ShadowSettings,
+        lights: &LightUniforms,
+        (index, sample): (usize, &LightSample),
+    ) {
+        let mut pass = direct_light::begin_stencil(encoder, targets);
+        pass.set_bind_group(0, subject.frame, &[]);
+        lights.bind(&mut pass, index);
+        if let Some(counting) = counting(settings.technique) {
+            self.volumes.draw(&mut pass, subject, sample.place(), counting, &settings.volumes);
+            self.cutouts.draw(&mut pass, subject);
+        }
+        if settings.technique == ShadowTechnique::Planar {
+            self.planar.draw(gpu, &mut pass, subject, sample.place());
+            self.cutouts.draw(&mut pass, subject);
+        }
+    }
+
     /// Adds one light sample where it is not in shadow.
     #[expect(clippy::too_many_arguments, reason = "where to draw, what of it and how")]
     fn add_sample(
@@ -221,19 +271,7 @@ impl RealTimeLight {
         lights: &LightUniforms,
         (index, sample): (usize, &LightSample),
     ) {
-        // Shadows that the stencil tells.
-        let mut pass = direct_light::begin_stencil(encoder, targets);
-        pass.set_bind_group(0, subject.frame, &[]);
-        lights.bind(&mut pass, index);
-        if let Some(counting) = counting(settings.technique) {
-            self.volumes.draw(&mut pass, subject, sample.place(), counting, &settings.volumes);
-            self.cutouts.draw(&mut pass, subject);
-        }
-        if settings.technique == ShadowTechnique::Planar {
-            self.planar.draw(gpu, &mut pass, subject, sample.place());
-            self.cutouts.draw(&mut pass, subject);
-        }
-        drop(pass);
+        self.mark_shadows(gpu, encoder, targets, subject, settings, lights, (index, sample));
         // Light where there are none.
         let is_map = settings.technique == ShadowTechnique::Map;
         let map = is_map.then(|| self.maps.draw(gpu, encoder, subject, sample, &settings.maps));

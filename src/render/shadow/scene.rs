@@ -1,12 +1,13 @@
 //! What shadows ask of a scene beyond its buffers.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::Vec4;
 use wgpu::util::DeviceExt;
 
 use super::casters::Casters;
 use super::cutout_shadow::Cutouts;
+use super::exact_rays::ExactRays;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
 
@@ -15,10 +16,12 @@ pub struct ShadowScene {
     scene: Arc<Scene>,
     /// Triangles that throw shadows.
     pub(super) casters: Casters,
-    /// Each corner of the casters three times, as `silhouette::Hull` counts them.
+    /// Each corner of the casters twice, as `silhouette::Hull` counts them.
     pub(super) corners: wgpu::Buffer,
     /// Casters with holes.
     pub(super) cutouts: Vec<Cutouts>,
+    /// Built when the truth is first asked for.
+    rays: OnceLock<ExactRays>,
 }
 
 impl ShadowScene {
@@ -26,18 +29,23 @@ impl ShadowScene {
     #[must_use]
     pub fn new(gpu: &Gpu, scene: Arc<Scene>) -> Self {
         let casters = Casters::new(&scene);
-        let corners: Vec<Vec4> = casters.positions.iter().flat_map(|p| [0.0, 1.0, 2.0].map(|w| p.extend(w))).collect();
+        let corners: Vec<Vec4> = casters.positions.iter().flat_map(|p| [0.0, 1.0].map(|w| p.extend(w))).collect();
         let corners = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("corners of casters"),
             contents: bytemuck::cast_slice(&corners),
             usage: wgpu::BufferUsages::VERTEX,
         });
-        Self { cutouts: Cutouts::of_scene(gpu, &scene), scene, casters, corners }
+        Self { cutouts: Cutouts::of_scene(gpu, &scene), scene, casters, corners, rays: OnceLock::new() }
     }
 
     /// The scene.
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// Lines of sight through it.
+    pub(super) fn rays(&self) -> &ExactRays {
+        self.rays.get_or_init(|| ExactRays::new(Arc::clone(&self.scene)))
     }
 }

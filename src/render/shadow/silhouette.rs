@@ -7,7 +7,7 @@
 use glam::{DVec3, Vec3, Vec4};
 use rayon::prelude::*;
 
-use super::casters::{Caster, Casters};
+use super::casters::{Caster, Casters, Edge};
 
 /// Edges that one task takes.
 const CHUNK: usize = 4096;
@@ -21,17 +21,17 @@ pub enum Counting {
     DepthFail,
 }
 
-/// The shadow volumes of one light, as triangles. An index is three times the corner, plus 0 where it is in its
-/// place, 1 where it is infinitely far from the light, 2 where it is a hair deeper; all triangles are counter-clockwise seen from outside of the volume, but for `averted_caps`.
+/// The shadow volumes of one light, as triangles. An index is twice the corner, plus 1 where it is infinitely far from
+/// the light.
+///
+/// The sides at an edge list their corners in the same order whichever way round they are, and caps in the order of
+/// their triangle: what coincides has the same depth to the last bit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hull {
-    /// Sides, and for depth-fail the caps at infinity.
-    pub walls: Vec<u32>,
-    /// Caps that face the light with the front of their triangle.
-    pub facing_caps: Vec<u32>,
-    /// Caps that face the light with the back of their triangle: clockwise, so that their depth is that of the triangle
-    /// to the last bit.
-    pub averted_caps: Vec<u32>,
+    /// Triangles that are counter-clockwise seen from outside of the volume.
+    pub counter_clockwise: Vec<u32>,
+    /// Triangles that are clockwise.
+    pub clockwise: Vec<u32>,
 }
 
 /// +1 where a triangle's front faces the light, -1 where its back does, `[t]`.
@@ -52,85 +52,107 @@ pub fn facing(casters: &Casters, place: Vec4) -> Vec<i32> {
 #[must_use]
 pub fn hull(casters: &Casters, facing: &[i32], place: Vec4, counting: Counting) -> Hull {
     let is_directional = place.w == 0.0;
-    let of_edges = |edges: &[super::casters::Edge]| {
-        let mut walls = Vec::new();
+    let of_edges = |edges: &[Edge]| {
+        let mut hull = Hull::default();
         for edge in edges {
             let sides = &casters.sides[edge.sides.start as usize..edge.sides.end as usize];
-            let count: i32 = sides.iter().map(|side| side.direction * facing[side.triangle as usize]).sum();
-            let [a, b] = if count > 0 { edge.ends } else { [edge.ends[1], edge.ends[0]] };
-            for _ in 0..count.unsigned_abs() {
-                walls.extend([near(a), far(a), near(b)]);
-                if !is_directional {
-                    walls.extend([far(a), far(b), near(b)]);
-                }
-            }
+            let count = sides.iter().map(|side| side.direction * facing[side.triangle as usize]).sum();
+            hull.add_side(edge.ends, count, is_directional);
         }
-        walls
+        hull
     };
-    let mut hull =
-        Hull { walls: casters.edges.par_chunks(CHUNK).map(of_edges).collect::<Vec<_>>().concat(), ..Hull::default() };
+    let mut hull = Hull::default();
+    for part in casters.edges.par_chunks(CHUNK).map(of_edges).collect::<Vec<_>>() {
+        hull.append(&part);
+    }
     if counting == Counting::DepthFail {
-        add_caps(&mut hull, casters, facing, is_directional);
+        for (triangle, &facing) in casters.triangles.iter().zip(facing) {
+            hull.add_light_caps(casters, triangle, facing);
+            hull.add_dark_caps(casters, triangle, facing, is_directional);
+        }
     }
     hull
-}
-
-/// Closes the volumes at the casters and at infinity; seen from a directional light, infinity is a point.
-fn add_caps(hull: &mut Hull, casters: &Casters, facing: &[i32], is_directional: bool) {
-    for (triangle, &facing) in casters.triangles.iter().zip(facing).filter(|(_, facing)| **facing != 0) {
-        hull.add_light_caps(casters, triangle, facing);
-        for &[a, b, c] in parts(casters, triangle).iter().filter(|_| !is_directional) {
-            hull.walls.extend(if facing > 0 { [far(a), far(c), far(b)] } else { [far(a), far(b), far(c)] });
-        }
-    }
-}
-
-impl Hull {
-    /// Closes the volume of a triangle towards the light.
-    pub fn add_light_caps(&mut self, casters: &Casters, triangle: &Caster, facing: i32) {
-        let caps = if facing > 0 { &mut self.facing_caps } else { &mut self.averted_caps };
-        let (whole, slivers) = parts(casters, triangle).split_first().expect("a triangle is its own first part");
-        caps.extend(whole.iter().map(|&corner| near(corner)));
-        caps.extend(slivers.iter().flatten().map(|&corner| behind(corner)));
-    }
 }
 
 /// The shadow volumes of all triangles as if no two were joined: each closed in itself. Slow, and right by construction.
 #[must_use]
 pub fn hull_triangle_by_triangle(casters: &Casters, facing: &[i32], place: Vec4) -> Hull {
+    let is_directional = place.w == 0.0;
     let mut hull = Hull::default();
     for (triangle, &facing) in casters.triangles.iter().zip(facing) {
         hull.add_light_caps(casters, triangle, facing);
-        for &part in parts(casters, triangle) {
-            let [a, b, c] = if facing > 0 { part } else { [part[0], part[2], part[1]] };
+        hull.add_dark_caps(casters, triangle, facing, is_directional);
+        for &[a, b, c] in casters.parts(triangle) {
             for [from, to] in [[a, b], [b, c], [c, a]] {
-                hull.walls.extend([near(from), far(from), near(to)]);
-                hull.walls.extend([far(from), far(to), near(to)]);
-            }
-            if place.w != 0.0 {
-                hull.walls.extend([far(a), far(c), far(b)]);
+                let direction = if from < to { 1 } else { -1 };
+                hull.add_side([from.min(to), from.max(to)], direction * facing, is_directional);
             }
         }
     }
     hull
 }
 
-fn parts<'a>(casters: &'a Casters, triangle: &Caster) -> &'a [[u32; 3]] {
-    &casters.parts[triangle.parts.start as usize..triangle.parts.end as usize]
+/// Triangles that turn one side to the light while on the other a smooth shading normal sees it. Listed
+/// counter-clockwise is what is dark seen from its front, clockwise what is dark seen from its back.
+///
+/// Sides of volumes run too close to these triangles for depths to tell them apart.
+#[must_use]
+pub fn terminator(casters: &Casters, facing: &[i32], place: Vec4) -> Hull {
+    let mut hull = Hull::default();
+    for (triangle, &facing) in casters.triangles.iter().zip(facing).filter(|(_, facing)| **facing != 0) {
+        let to_light = casters.corners(triangle).map(|corner| place.truncate() - place.w * corner);
+        // Interpolated, normal and direction see one another only if those of some two corners do.
+        let sees = |&normal: &Vec3| to_light.iter().any(|&to_light| (normal.dot(to_light) < 0.0) == (facing > 0));
+        if triangle.normals.iter().any(sees) {
+            hull.list(-facing).extend(triangle.corners.map(near));
+        }
+    }
+    hull
+}
+
+impl Hull {
+    /// The side at an edge, `count` times; the other way round where that is negative.
+    fn add_side(&mut self, [a, b]: [u32; 2], count: i32, is_directional: bool) {
+        let list = self.list(count);
+        for _ in 0..count.unsigned_abs() {
+            list.extend([near(a), far(a), near(b)]);
+            // Seen from a directional light, infinity is a point.
+            if !is_directional {
+                list.extend([far(a), far(b), near(b)]);
+            }
+        }
+    }
+
+    /// Closes the volume of a triangle towards the light.
+    pub fn add_light_caps(&mut self, casters: &Casters, triangle: &Caster, facing: i32) {
+        if facing != 0 {
+            self.list(facing).extend(casters.parts(triangle).iter().flatten().map(|&corner| near(corner)));
+        }
+    }
+
+    /// Closes the volume of a triangle at infinity.
+    fn add_dark_caps(&mut self, casters: &Casters, triangle: &Caster, facing: i32, is_directional: bool) {
+        if facing != 0 && !is_directional {
+            self.list(-facing).extend(casters.parts(triangle).iter().flatten().map(|&corner| far(corner)));
+        }
+    }
+
+    fn append(&mut self, other: &Hull) {
+        self.counter_clockwise.extend_from_slice(&other.counter_clockwise);
+        self.clockwise.extend_from_slice(&other.clockwise);
+    }
+
+    fn list(&mut self, sign: i32) -> &mut Vec<u32> {
+        if sign > 0 { &mut self.counter_clockwise } else { &mut self.clockwise }
+    }
 }
 
 /// Where the corner is.
 fn near(corner: u32) -> u32 {
-    3 * corner
+    2 * corner
 }
 
 /// Where the light would throw its shadow at infinity.
 fn far(corner: u32) -> u32 {
-    3 * corner + 1
-}
-
-/// In the same place of the picture a hair deeper: slivers have no depth of their own to trust, and must not hide behind
-/// the triangles between which they lie.
-fn behind(corner: u32) -> u32 {
-    3 * corner + 2
+    2 * corner + 1
 }

@@ -1,0 +1,10 @@
+//! Shadows: every technique against rays, on scenes made to break them.
+
+mod light;
+mod map;
+mod pictures;
+mod planar;
+mod stage;
+mod stress;
+mod truth;
+mod volumes;

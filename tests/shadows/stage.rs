@@ -1,0 +1,234 @@
+//! Scenes made to break shadows, and what is asserted of them.
+
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+use glam::{Mat4, Vec3, Vec4};
+use hemicube::baked::{BakedScene, VertexLight};
+use hemicube::base::ids::{GroupId, InstanceId, MaterialId};
+use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::picture_in_light;
+use hemicube::render::shadow::{Case, Decisions, Judge, ShadowDifference, shadow_difference};
+use hemicube::render::{Exposure, Look, Picture, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View};
+use hemicube::scene::{Camera, Instance, Light, LightKind, Material, Scene, Triangle, Vertex};
+
+use crate::support::device::gpu;
+
+pub const SIZE: [u32; 2] = [256, 192];
+
+/// A floor of 8 m, and what stands over it.
+pub struct Stage {
+    pub scene: Scene,
+    pub camera: Camera,
+}
+
+impl Stage {
+    /// The floor alone, lit by a point light, seen from one side.
+    pub fn new() -> Self {
+        let mut scene = Scene { materials: vec![paint()], light_groups: vec!["light".to_owned()], ..Scene::default() };
+        scene.instances.push(Instance { name: "all".to_owned(), triangles: 0..0 });
+        let camera = Camera::looking_at("side", Vec3::new(0.0, 3.0, 7.0), Vec3::new(0.0, 0.5, 0.0), 0.9);
+        let mut stage = Self { scene, camera };
+        stage.quad(Vec3::new(-4.0, 0.0, 4.0), 8.0 * Vec3::X, -8.0 * Vec3::Z);
+        stage.light(LightKind::Point { position: Vec3::new(0.7, 4.0, 0.4) });
+        stage
+    }
+
+    pub fn light(&mut self, kind: LightKind) -> &mut Self {
+        let intensity = Vec3::splat(30.0);
+        self.scene.lights = vec![Light { name: String::new(), kind, intensity, range: None, group: GroupId(0) }];
+        self
+    }
+
+    pub fn seen(&mut self, eye: Vec3, target: Vec3) -> &mut Self {
+        self.camera = Camera::looking_at("other", eye, target, 0.9);
+        self
+    }
+
+    pub fn material(&mut self, material: Material) -> u32 {
+        self.scene.materials.push(material);
+        self.scene.materials.len() as u32 - 1
+    }
+
+    pub fn triangle(&mut self, corners: [Vec3; 3], material: u32) -> &mut Self {
+        let normal = hemicube::scene::normal_of(corners);
+        let first = self.scene.vertices.len() as u32;
+        let uv = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]];
+        for (position, uv) in corners.into_iter().zip(uv) {
+            self.scene.vertices.push(Vertex { position, normal, uv: [uv.into(); 2], colour: Vec4::ONE });
+        }
+        self.scene.triangles.push(Triangle {
+            vertices: [first, first + 1, first + 2],
+            material: MaterialId(material),
+            instance: InstanceId(0),
+            is_back_side: false,
+        });
+        self
+    }
+
+    /// A parallelogram with its front towards `u` x `v`; its corners are not shared.
+    pub fn quad(&mut self, origin: Vec3, u: Vec3, v: Vec3) -> &mut Self {
+        self.quad_of(origin, u, v, 0)
+    }
+
+    pub fn quad_of(&mut self, origin: Vec3, u: Vec3, v: Vec3, material: u32) -> &mut Self {
+        self.triangle([origin, origin + u, origin + u + v], material);
+        self.triangle([origin, origin + u + v, origin + v], material)
+    }
+
+    /// The sides of a unit cube under `transform`, but for the first `num_open`.
+    pub fn cube(&mut self, transform: Mat4, num_open: usize) -> &mut Self {
+        let sides = [(Vec3::Y, Vec3::Z, Vec3::X), (Vec3::X, Vec3::Y, Vec3::Z), (Vec3::Z, Vec3::X, Vec3::Y)];
+        let faces = sides.into_iter().flat_map(|(n, u, v)| [(n, u, v), (-n, v, u)]);
+        let is_mirrored = transform.determinant() < 0.0;
+        for (n, u, v) in faces.skip(num_open) {
+            let (u, v) = if is_mirrored { (v, u) } else { (u, v) };
+            let origin = transform.transform_point3(0.5 * (n - u - v));
+            self.quad(origin, transform.transform_vector3(u), transform.transform_vector3(v));
+        }
+        self
+    }
+
+    pub fn sphere(&mut self, centre: Vec3, radius: f32) -> &mut Self {
+        let (columns, rows) = (20, 10);
+        let at = |i: i32, j: i32| {
+            let (phi, theta) =
+                (i as f32 / columns as f32 * std::f32::consts::TAU, j as f32 / rows as f32 * std::f32::consts::PI);
+            // The last column is the first, to the bit.
+            let phi = if i == columns { 0.0 } else { phi };
+            let theta = if j == rows { std::f32::consts::PI } else { theta };
+            let ring = if j == 0 || j == rows { 0.0 } else { theta.sin() };
+            centre + radius * Vec3::new(ring * phi.sin(), theta.cos(), ring * phi.cos())
+        };
+        for (i, j) in (0..columns).flat_map(|i| (0..rows).map(move |j| (i, j))) {
+            let first = self.scene.vertices.len();
+            if j > 0 {
+                self.triangle([at(i, j), at(i + 1, j + 1), at(i + 1, j)], 0);
+            }
+            if j + 1 < rows {
+                self.triangle([at(i, j), at(i, j + 1), at(i + 1, j + 1)], 0);
+            }
+            for vertex in &mut self.scene.vertices[first..] {
+                vertex.normal = (vertex.position - centre).normalize();
+            }
+        }
+        self
+    }
+
+    /// On the device with stored light.
+    pub fn lit(&self, gpu: &Gpu, light: VertexLight) -> SceneBuffers {
+        SceneBuffers::new(gpu, &BakedScene { scene: self.scene.clone(), light })
+    }
+
+    /// Where the middle of a pixel looks at the floor.
+    pub fn floor_under(&self, x: u32, y: u32) -> Vec3 {
+        let view = View::from_camera(&self.camera, SIZE[0] as f32 / SIZE[1] as f32);
+        let right = 2.0 * (x as f32 + 0.5) / SIZE[0] as f32 - 1.0;
+        let up = 1.0 - 2.0 * (y as f32 + 0.5) / SIZE[1] as f32;
+        let seen = view.projection_from_world().inverse().project_point3(Vec3::new(right, up, 0.5));
+        let eye = self.camera.position;
+        eye + (seen - eye) * (eye.y / (eye.y - seen.y))
+    }
+
+    pub fn shot(&self, gpu: &Gpu) -> Shot {
+        let mut scene = self.scene.clone();
+        scene.instances[0].triangles = 0..scene.triangles.len();
+        let light = VertexLight::dark(1, scene.vertices.len());
+        let baked = BakedScene { scene, light };
+        Shot {
+            buffers: SceneBuffers::new(gpu, &baked),
+            shadows: Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene))),
+            camera: self.camera.clone(),
+            size: SIZE,
+        }
+    }
+
+    /// Fails unless volumes, joined or not and counted either way, decide as rays do.
+    #[track_caller]
+    pub fn assert_volumes_are_exact(&self) {
+        let Some(gpu) = gpu() else { return };
+        let shot = self.shot(gpu);
+        let truth = shot.decisions(gpu, &raytraced());
+        let dark = truth.samples[0].lit.iter().filter(|lit| !**lit).count();
+        assert!(dark > 100 && dark < truth.samples[0].lit.len(), "{dark} dark pixels show nothing");
+        let joined = settings(ShadowTechnique::VolumeDepthFail);
+        let mut alone = joined.clone();
+        alone.volumes.joined = false;
+        for wanted in [&joined, &alone, &settings(ShadowTechnique::VolumeDepthPass)] {
+            let difference = shadow_difference(&shot.decisions(gpu, wanted), &truth);
+            assert_eq!(num_different(&difference), 0, "{wanted:?} at {:?}", places(&difference));
+        }
+    }
+}
+
+/// A stage on the device.
+pub struct Shot {
+    pub buffers: SceneBuffers,
+    pub shadows: Arc<ShadowScene>,
+    pub camera: Camera,
+    pub size: [u32; 2],
+}
+
+impl Shot {
+    pub fn decisions(&self, gpu: &Gpu, settings: &ShadowSettings) -> Decisions {
+        self.ask(gpu, |judge, case| judge.decisions(gpu, case, settings).expect("decisions"))
+    }
+
+    /// What the stencil counts for the first light sample.
+    pub fn stencil(&self, gpu: &Gpu, settings: &ShadowSettings) -> Vec<u8> {
+        self.ask(gpu, |judge, case| judge.stencil(gpu, case, settings, 0).expect("a stencil"))
+    }
+
+    fn ask<T>(&self, gpu: &Gpu, of: impl FnOnce(&mut Judge, Case<'_>) -> T) -> T {
+        let size = self.size;
+        let view = &View::from_camera(&self.camera, size[0] as f32 / size[1] as f32);
+        let case = Case { scene: &self.buffers, shadows: &self.shadows, view, size };
+        // Passes are made once: a driver that draws on the CPU compiles them, and that takes longer than a test.
+        static JUDGE: OnceLock<Mutex<Judge>> = OnceLock::new();
+        let judge = JUDGE.get_or_init(|| Mutex::new(Judge::new(gpu)));
+        of(&mut judge.lock().unwrap_or_else(PoisonError::into_inner), case)
+    }
+
+    /// Share of pixels that differ from the truth.
+    pub fn fault(&self, gpu: &Gpu, settings: &ShadowSettings) -> f32 {
+        shadow_difference(&self.decisions(gpu, settings), &self.decisions(gpu, &raytraced())).share
+    }
+
+    pub fn picture(&self, gpu: &Gpu, settings: &ShadowSettings, samples: u32) -> Picture {
+        let look = Look {
+            shadows: Some(settings.clone()),
+            exposure: Exposure::Ev(0.0),
+            tone_map: ToneMap::Linear,
+            ambient: Vec3::splat(0.1),
+            ..Look::default()
+        };
+        picture_in_light(gpu, &self.buffers, Some(Arc::clone(&self.shadows)), &self.camera, SIZE, &look, samples)
+            .expect("a picture")
+    }
+}
+
+pub fn paint() -> Material {
+    Material { base_colour: Vec4::new(0.5, 0.5, 0.5, 1.0), metallic: 0.0, ..Material::default() }
+}
+
+pub fn settings(technique: ShadowTechnique) -> ShadowSettings {
+    ShadowSettings::new(technique)
+}
+
+pub fn raytraced() -> ShadowSettings {
+    settings(ShadowTechnique::Raytraced)
+}
+
+pub fn num_different(difference: &ShadowDifference) -> usize {
+    difference.count.iter().filter(|&&count| count > 0).count()
+}
+
+/// Column, row and whether it is too bright, of the first pixels that differ.
+pub fn places(difference: &ShadowDifference) -> Vec<(usize, usize, bool)> {
+    let width = difference.size[0] as usize;
+    let differing = (0..difference.count.len()).filter(|&pixel| difference.count[pixel] > 0);
+    differing.map(|pixel| (pixel % width, pixel / width, difference.is_too_bright[pixel])).take(8).collect()
+}
+
+pub fn at(x: f32, y: f32, z: f32) -> Mat4 {
+    Mat4::from_translation(Vec3::new(x, y, z))
+}
