@@ -138,6 +138,10 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         backface_share = gatherer.mean_back_share();
     }
     let mut indirect = completed(&gathered, || estimate(&mesh, &solution));
+    if settings.solver == Solver::Gathering && settings.passes == Some(0) {
+        // Nothing has been reflected yet.
+        direct = Field::zero(direct.num_places(), direct.num_groups());
+    }
     let mesh = refined.unwrap_or(mesh);
     fill_hidden(&mesh, &gathered.is_valid, [&mut direct, &mut indirect]);
     let baked = lit_mesh(scene, &mesh, &direct, &indirect);

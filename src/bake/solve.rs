@@ -89,7 +89,9 @@ impl Task<'_> {
         while num_passes + 1 < last && !self.watch.is_cancelled() {
             let change = gather_pass(self.mesh, &direct, &rows, &mut on_patches);
             num_passes += 1;
-            (self.show)(&self.solution(direct.clone(), &on_patches, &rows, num_passes));
+            if self.watch.wants_light() {
+                (self.show)(&self.solution(direct.clone(), &on_patches, &rows, num_passes));
+            }
             if change <= SETTLED {
                 break;
             }

@@ -37,9 +37,10 @@ pub struct BakeOptions {
     /// one answer.
     #[arg(long, value_enum, value_name = "SOLVER", default_value = "progressive")]
     pub solver: SolverName,
-    /// Gathering ends with the light of N reflections, 1 being direct light alone [default: when nothing changes];
+    /// Gathering ends with the light of N reflections, 0 showing the lamps and 1 direct light alone [default: when nothing
+    /// changes];
     /// progressive refinement ends after N shots a patch on average [default: 64].
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N")]
     pub passes: Option<u32>,
 }
 

@@ -25,21 +25,23 @@ struct Record {
     site: u32,
 }
 
-/// Known sites in a grid, by their neighbourhoods.
+/// Finest grid: records smaller than this many halvings of the largest share its cells.
+const MAX_LEVEL: usize = 15;
+
+/// Known sites in grids of ever smaller cells, each record in one whose cells are about as large as its neighbourhood.
 #[derive(Debug)]
 pub struct IrradianceCache {
     /// Largest error at which a record may be borrowed from.
     tolerance: f32,
-    cell: f32,
     max_radius: f32,
-    records: HashMap<IVec3, Vec<Record>>,
+    levels: Vec<HashMap<IVec3, Vec<Record>>>,
 }
 
 impl IrradianceCache {
     /// An empty cache; records reach at most `max_radius` metres.
     #[must_use]
     pub fn new(tolerance: f32, max_radius: f32) -> Self {
-        Self { tolerance, cell: max_radius, max_radius, records: HashMap::new() }
+        Self { tolerance, max_radius, levels: Vec::new() }
     }
 
     /// Enters a known site that sees surfaces at harmonic mean distance `distance`, the nearest at `nearest`: it is good
@@ -47,13 +49,17 @@ impl IrradianceCache {
     pub fn insert(&mut self, viewpoint: &Viewpoint, distance: f32, nearest: f32, site: u32) {
         let radius = (distance * self.tolerance).min(self.max_radius).min(nearest / BLEND);
         let record = Record { position: viewpoint.position, normal: viewpoint.normal, radius, site };
-        let radius = BLEND * radius;
-        let low = ((viewpoint.position - radius) / self.cell).floor().as_ivec3();
-        let high = ((viewpoint.position + radius) / self.cell).floor().as_ivec3();
+        let halvings = (self.max_radius / radius.max(f32::MIN_POSITIVE)).log2();
+        let level = (halvings.max(0.0) as usize).min(MAX_LEVEL);
+        if self.levels.len() <= level {
+            self.levels.resize_with(level + 1, HashMap::new);
+        }
+        let low = self.cell(level, viewpoint.position - BLEND * radius);
+        let high = self.cell(level, viewpoint.position + BLEND * radius);
         for x in low.x..=high.x {
             for y in low.y..=high.y {
                 for z in low.z..=high.z {
-                    self.records.entry(IVec3::new(x, y, z)).or_default().push(record);
+                    self.levels[level].entry(IVec3::new(x, y, z)).or_default().push(record);
                 }
             }
         }
@@ -62,9 +68,7 @@ impl IrradianceCache {
     /// A known site is near enough for `viewpoint` to do without one of its own.
     #[must_use]
     pub fn serves(&self, viewpoint: &Viewpoint) -> bool {
-        let cell = (viewpoint.position / self.cell).floor().as_ivec3();
-        let mut records = self.records.get(&cell).into_iter().flatten();
-        records.any(|record| self.error(record, viewpoint).is_some_and(|error| error < self.tolerance))
+        self.near(viewpoint).any(|record| self.error(record, viewpoint).is_some_and(|error| error < self.tolerance))
     }
 
     /// Known sites that `viewpoint` may borrow from, with weights that sum to 1; none where there are none.
@@ -72,9 +76,7 @@ impl IrradianceCache {
     /// Equation: w = (1 - error / limit)^2 with error = |x - x_i| / R_i + sqrt(1 - n . n_i).
     pub fn weights(&self, viewpoint: &Viewpoint, weights: &mut Vec<(u32, f32)>) {
         weights.clear();
-        let cell = (viewpoint.position / self.cell).floor().as_ivec3();
-        let Some(records) = self.records.get(&cell) else { return };
-        for record in records {
+        for record in self.near(viewpoint) {
             if let Some(error) = self.error(record, viewpoint) {
                 let closeness = 1.0 - error / (BLEND * self.tolerance);
                 weights.push((record.site, closeness * closeness));
@@ -82,6 +84,19 @@ impl IrradianceCache {
         }
         let sum: f32 = weights.iter().map(|(_, weight)| weight).sum();
         weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
+    }
+
+    /// Records whose neighbourhood may hold the viewpoint.
+    fn near<'c>(&'c self, viewpoint: &'c Viewpoint) -> impl Iterator<Item = &'c Record> {
+        let in_cell =
+            |level: usize| self.levels[level].get(&self.cell(level, viewpoint.position)).into_iter().flatten();
+        (0..self.levels.len()).flat_map(in_cell)
+    }
+
+    /// Cells of a level are at least as wide as the neighbourhoods in it.
+    fn cell(&self, level: usize, position: Vec3) -> IVec3 {
+        let width = 2.0 * BLEND * self.max_radius / (1u32 << level) as f32;
+        (position / width).floor().as_ivec3()
     }
 
     fn error(&self, record: &Record, viewpoint: &Viewpoint) -> Option<f32> {

@@ -7,6 +7,7 @@
 //! a radiosity solution).
 
 use glam::{Mat2, Vec2, Vec3};
+use rayon::prelude::*;
 
 use super::cache::IrradianceCache;
 use super::field::Field;
@@ -142,25 +143,22 @@ impl<'a> Gatherer<'a> {
     /// Gives every open site what a plane through the records near it, its own included, says of its place.
     fn blend(&self, sites: &[Viewpoint], gathered: &mut Gathered) {
         let num_groups = self.radiosity.num_groups();
-        let mut weights = Vec::new();
-        for (site, viewpoint) in sites.iter().enumerate() {
-            if !gathered.is_valid[site] {
-                continue;
+        let Gathered { indirect, is_valid, is_known } = gathered;
+        let places = indirect.values_mut().par_chunks_mut(num_groups.max(1)).zip(is_known).zip(is_valid);
+        places.zip(sites).for_each_init(Vec::new, |weights, (((sums, is_known), is_valid), viewpoint)| {
+            self.cache.weights(viewpoint, weights);
+            if !*is_valid || weights.is_empty() {
+                return;
             }
-            self.cache.weights(viewpoint, &mut weights);
-            if weights.is_empty() {
-                continue;
-            }
-            self.fit_plane(viewpoint, &mut weights);
-            gathered.is_known[site] = true;
-            let sums = gathered.indirect.at_mut(site);
+            self.fit_plane(viewpoint, weights);
+            *is_known = true;
             sums.fill(Vec3::ZERO);
-            for &(record, weight) in &weights {
+            for &(record, weight) in &*weights {
                 let record = record as usize * num_groups;
                 sums.iter_mut().zip(&self.records[record..]).for_each(|(sum, &value)| *sum += value * weight);
             }
             sums.iter_mut().for_each(|sum| *sum = sum.max(Vec3::ZERO));
-        }
+        });
     }
 
     /// Turns the weights of a mean into those of the value at the viewpoint of the plane that fits the records best, so that

@@ -107,7 +107,7 @@ impl Atlas {
             let mut pass = self.begin_pass(&mut encoder);
             pass.set_pipeline(pipeline);
             pass.set_bind_group(0, &self.bindings, &[]);
-            let mut ranges: Vec<Range<u32>> = Vec::new();
+            let mut ranges: Vec<(f32, Range<u32>)> = Vec::new();
             for (cell, matrices) in faces.iter().enumerate() {
                 let (left, top) = layout.origin(cell);
                 for (face, matrix) in matrices.iter().enumerate() {
@@ -115,8 +115,8 @@ impl Atlas {
                     pass.set_viewport(left as f32, (top + down) as f32, width as f32, height as f32, 0.0, 1.0);
                     pass.set_scissor_rect(left, top + down, width, height);
                     let view = (cell * NUM_FACES + face) as u32;
-                    geometry.visible_vertices(&Frustum::new(matrix), &mut ranges);
-                    for range in &ranges {
+                    geometry.visible_vertices(&Frustum::new(matrix), viewpoints[cell].position, &mut ranges);
+                    for (_, range) in &ranges {
                         pass.draw(range.clone(), view..view + 1);
                     }
                 }

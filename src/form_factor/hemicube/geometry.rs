@@ -66,11 +66,12 @@ impl Geometry {
         }
     }
 
-    /// Ranges of vertices whose triangles `frustum` may see, a few neighbouring chunks in one.
-    pub(super) fn visible_vertices(&self, frustum: &Frustum, ranges: &mut Vec<Range<u32>>) {
+    /// Ranges of vertices whose triangles `frustum` may see from `eye`, a few neighbouring chunks in one, the nearest first:
+    /// what lies behind them is not shaded.
+    pub(super) fn visible_vertices(&self, frustum: &Frustum, eye: Vec3, ranges: &mut Vec<(f32, Range<u32>)>) {
         ranges.clear();
         if self.chunks.len() == 1 {
-            ranges.push(0..3 * self.num_triangles);
+            ranges.push((0.0, 0..3 * self.num_triangles));
             return;
         }
         for (i, bounds) in self.chunks.iter().enumerate() {
@@ -79,10 +80,17 @@ impl Geometry {
             }
             let first = (i * CHUNK) as u32;
             let end = (first + CHUNK as u32).min(self.num_triangles);
+            let distance = eye.distance_squared(eye.clamp(bounds.low, bounds.high));
             match ranges.last_mut() {
-                Some(range) if range.end == 3 * first && 3 * end - range.start <= MAX_VERTICES => range.end = 3 * end,
-                _ => ranges.push(3 * first..3 * end),
+                Some((nearest, range)) if range.end == 3 * first && 3 * end - range.start <= MAX_VERTICES => {
+                    range.end = 3 * end;
+                    *nearest = nearest.min(distance);
+                }
+                _ => ranges.push((distance, 3 * first..3 * end)),
             }
+        }
+        if self.is_culled {
+            ranges.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.start.cmp(&b.1.start)));
         }
     }
 }
