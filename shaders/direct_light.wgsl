@@ -4,12 +4,14 @@
 
 @fragment
 fn fragment(in: VisiblePoint, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
-    let facet = facet_normal(in.point);
+    let facet = facet_normal(in.middle);
     let received = irradiance(in.point, seen_normal(in, is_front));
     if all(received <= vec3f(0.0)) {
         discard;
     }
-    let visible = visibility(in.point, facet);
+    // Some drivers' centroids lie off the plane of their triangle, and what lies behind its plane is in shadow.
+    let off_plane = dot(in.point - in.middle, facet) * facet;
+    let visible = visibility(in.point - off_plane, facet);
     if visible <= 0.0 {
         discard;
     }
@@ -18,8 +20,8 @@ fn fragment(in: VisiblePoint, @builtin(front_facing) is_front: bool) -> @locatio
 }
 
 // Unit normal of the triangle itself on the side that is seen.
-fn facet_normal(point: vec3f) -> vec3f {
-    let across = cross(dpdx(point), dpdy(point));
-    let to_eye = frame.eye.xyz - frame.eye.w * point;
+fn facet_normal(middle: vec3f) -> vec3f {
+    let across = cross(dpdx(middle), dpdy(middle));
+    let to_eye = frame.eye.xyz - frame.eye.w * middle;
     return normalize(select(-across, across, dot(across, to_eye) > 0.0));
 }

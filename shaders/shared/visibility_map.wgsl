@@ -1,4 +1,4 @@
-// What the shadow map sees is lit. Written by src/render/shadow/shadow_map.rs.
+// What the shadow map sees is lit. Written by src/render/shadow/map_projection.rs.
 
 struct ShadowMap {
     // One for a spot or a directional light; six for a point, in the order +X -X +Y -Y +Z -Z.

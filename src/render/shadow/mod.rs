@@ -22,6 +22,8 @@ mod exact_rays;
 mod flattening;
 mod light_targets;
 mod light_uniforms;
+mod map_pipelines;
+mod map_projection;
 mod near_plane;
 mod raytraced;
 mod solid;

@@ -1,40 +1,18 @@
 //! Shadow map pass: what the light sees is lit (Williams 1978).
 //!
-//! A spot has one map, a point six faces of a cube, a directional light an orthographic map fitted to the scene and
-//! snapped to whole texels. Faces are a few texels wider than a quarter turn, so that filtering finds no seam. Depth is
-//! reversed, as in pictures.
+//! What a map shows is in [`super::map_projection`], how texels are written and read in [`super::map_pipelines`].
 
-use bytemuck::{Pod, Zeroable};
-use glam::camera::rh::proj::directx;
-use glam::camera::rh::view::look_to_mat4;
-use glam::{Mat4, Vec3, Vec3Swizzles};
+use glam::Mat4;
 use wgpu::util::DeviceExt;
 
 use super::light_samples::LightSample;
+use super::map_pipelines::{DEPTH_FORMAT, face_layout, pipeline, read_layout};
+use super::map_projection::MapUniform;
 use super::real_time::Subject;
 use super::solid::bind_mesh;
-use crate::base::sampling::tangent_frame;
 use crate::gpu::material_buffers::material_layout;
-use crate::gpu::scene_buffers::GpuVertex;
 use crate::gpu::{Gpu, shaders};
-use crate::scene::{AlphaMode, LightKind, Scene};
-
-const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Axes of a cube's faces and what is up on them, in the order of shaders/shared/visibility_map.wgsl.
-const FACES: [(Vec3, Vec3); 6] = [
-    (Vec3::X, Vec3::Y),
-    (Vec3::NEG_X, Vec3::Y),
-    (Vec3::Y, Vec3::Z),
-    (Vec3::NEG_Y, Vec3::Z),
-    (Vec3::Z, Vec3::Y),
-    (Vec3::NEG_Z, Vec3::Y),
-];
-/// Near plane of a map, as a share of the scene's extent.
-const NEAR: f32 = 1e-4;
-/// A wider spot is drawn as a point, radians.
-const WIDEST_SPOT: f32 = 1.2;
-/// Texels beyond the edge of a face for interpolation.
-const BORDER: f32 = 2.0;
+use crate::scene::AlphaMode;
 
 /// How shadow maps are drawn and read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,19 +32,6 @@ impl Default for MapSettings {
     fn default() -> Self {
         Self { resolution: 2048, pcf_radius: 1, normal_offset: 0.4, slope_bias: 0.7 }
     }
-}
-
-/// `ShadowMap` of shaders/shared/visibility_map.wgsl.
-#[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
-struct MapUniform {
-    projection_from_world: [Mat4; 6],
-    num_faces: u32,
-    texel: f32,
-    normal_offset: f32,
-    slope_bias: f32,
-    pcf_radius: i32,
-    padding: [u32; 7],
 }
 
 /// Shadow map pass.
@@ -219,163 +184,7 @@ impl Map {
     }
 }
 
-impl MapUniform {
-    fn new(scene: &Scene, sample: &LightSample, settings: &MapSettings) -> Self {
-        let (low, high) = scene.bounds();
-        let near = NEAR * (high - low).max_element();
-        let resolution = settings.resolution as f32;
-        let border = BORDER + settings.pcf_radius as f32;
-        let (projections, half_width) = match sample.light.kind {
-            LightKind::Directional { direction } => fitted((low, high), direction, resolution, border),
-            LightKind::Spot { position, direction, outer_angle, .. } if outer_angle < WIDEST_SPOT => {
-                let half_width = outer_angle.tan() * resolution / (resolution - 2.0 * border);
-                let up = tangent_frame(direction).0;
-                (vec![perspective(half_width, near) * look_to_mat4(position, direction, up)], half_width)
-            }
-            LightKind::Spot { position, .. } | LightKind::Point { position } => {
-                let half_width = resolution / (resolution - 2.0 * border);
-                let face = |(axis, up)| perspective(half_width, near) * look_to_mat4(position, axis, up);
-                (FACES.map(face).to_vec(), half_width)
-            }
-        };
-        let mut projection_from_world = [Mat4::IDENTITY; 6];
-        projection_from_world[..projections.len()].copy_from_slice(&projections);
-        Self {
-            projection_from_world,
-            num_faces: projections.len() as u32,
-            texel: 2.0 * half_width / resolution,
-            normal_offset: settings.normal_offset,
-            slope_bias: settings.slope_bias,
-            pcf_radius: settings.pcf_radius as i32,
-            padding: [0; 7],
-        }
-    }
-}
-
-fn perspective(half_width: f32, near: f32) -> Mat4 {
-    directx::perspective_infinite_reverse(2.0 * half_width.atan(), 1.0, near)
-}
-
-/// An orthographic map along `direction` that holds the whole box, and half its width.
-///
-/// Its middle lies on a grid of whole texels, so that a scene that grows a little does not make its shadows crawl.
-fn fitted((low, high): (Vec3, Vec3), direction: Vec3, resolution: f32, border: f32) -> (Vec<Mat4>, f32) {
-    let view_from_world = look_to_mat4(Vec3::ZERO, direction, tangent_frame(direction).0);
-    let corner = |i: u32| Vec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low);
-    let corners: Vec<Vec3> = (0..8).map(|i| view_from_world.transform_point3(corner(i))).collect();
-    let least = corners.iter().copied().fold(Vec3::INFINITY, Vec3::min);
-    let most = corners.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
-    let half_width = 0.5 * (most - least).xy().max_element() * resolution / (resolution - 2.0 * border);
-    let texel = 2.0 * half_width / resolution;
-    let middle = ((0.5 * (least + most)).xy() / texel).round() * texel;
-    let margin = 1e-3 * (most - least).max_element();
-    // Far before near reverses the depth.
-    let projection_from_view = directx::orthographic(
-        middle.x - half_width,
-        middle.x + half_width,
-        middle.y - half_width,
-        middle.y + half_width,
-        margin - least.z,
-        -margin - most.z,
-    );
-    (vec![projection_from_view * view_from_world], half_width)
-}
-
 fn uniform_buffer(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
     let usage = wgpu::BufferUsages::UNIFORM;
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("shadow map"), contents, usage })
-}
-
-fn entry(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
-    wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
-}
-
-const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Uniform,
-    has_dynamic_offset: false,
-    min_binding_size: None,
-};
-
-fn face_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("shadow map face"),
-        entries: &[entry(0, wgpu::ShaderStages::VERTEX, UNIFORM)],
-    })
-}
-
-fn read_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let depth = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Depth,
-        view_dimension: wgpu::TextureViewDimension::D2Array,
-        multisampled: false,
-    };
-    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-    let read = wgpu::ShaderStages::FRAGMENT;
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("shadow map"),
-        entries: &[entry(0, read, UNIFORM), entry(1, read, depth), entry(2, read, sampler)],
-    })
-}
-
-/// A pipeline for casters that are opaque, or that have the `ALPHA_MODE` of shaders/shared/material.wgsl.
-fn pipeline(
-    gpu: &Gpu,
-    layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-    alpha_mode: Option<f64>,
-) -> wgpu::RenderPipeline {
-    let constants = [("ALPHA_MODE", alpha_mode.unwrap_or(0.0))];
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("shadow map"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(GpuVertex::LAYOUT)],
-        },
-        primitive: Default::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: Default::default(),
-        fragment: alpha_mode.map(|_| wgpu::FragmentState {
-            module,
-            entry_point: Some("fragment"),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-            targets: &[],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::gpu::shaders::{DIRECT_LIGHT_MAP, struct_layout};
-
-    #[test]
-    fn the_uniform_is_as_long_as_the_shader_reads_it() {
-        let layout = struct_layout(&DIRECT_LIGHT_MAP, "ShadowMap");
-        assert_eq!(layout.last(), Some(&size_of::<MapUniform>()));
-        assert_eq!(layout[5], std::mem::offset_of!(MapUniform, pcf_radius));
-    }
-
-    #[test]
-    fn a_fitted_map_holds_the_box() {
-        let (low, high) = (Vec3::new(-3.0, 0.0, 1.0), Vec3::new(4.0, 5.0, 9.0));
-        let (maps, _) = fitted((low, high), Vec3::new(0.3, -0.8, 0.5).normalize(), 512.0, 3.0);
-        for point in [low, high, Vec3::new(low.x, high.y, low.z), 0.5 * (low + high)] {
-            let seen = maps[0].project_point3(point);
-            assert!(
-                seen.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&seen.z),
-                "{point} is at {seen}"
-            );
-        }
-    }
 }

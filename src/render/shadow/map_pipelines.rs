@@ -1,0 +1,77 @@
+//! How shadow maps are written and read: pipelines of casters, layouts of bindings.
+
+use crate::gpu::Gpu;
+use crate::gpu::scene_buffers::GpuVertex;
+
+/// Of every map.
+pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+fn entry(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+    wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
+}
+
+const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
+    ty: wgpu::BufferBindingType::Uniform,
+    has_dynamic_offset: false,
+    min_binding_size: None,
+};
+
+/// Layout of bind group 1 of the pass that draws a face.
+pub fn face_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("shadow map face"),
+        entries: &[entry(0, wgpu::ShaderStages::VERTEX, UNIFORM)],
+    })
+}
+
+/// Layout of bind group 2 of the pass that reads the map.
+pub fn read_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let depth = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Depth,
+        view_dimension: wgpu::TextureViewDimension::D2Array,
+        multisampled: false,
+    };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
+    let read = wgpu::ShaderStages::FRAGMENT;
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("shadow map"),
+        entries: &[entry(0, read, UNIFORM), entry(1, read, depth), entry(2, read, sampler)],
+    })
+}
+
+/// A pipeline for casters that are opaque, or that have the `ALPHA_MODE` of shaders/shared/material.wgsl.
+pub fn pipeline(
+    gpu: &Gpu,
+    layout: &wgpu::PipelineLayout,
+    module: &wgpu::ShaderModule,
+    alpha_mode: Option<f64>,
+) -> wgpu::RenderPipeline {
+    let constants = [("ALPHA_MODE", alpha_mode.unwrap_or(0.0))];
+    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some("shadow map"),
+        layout: Some(layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vertex"),
+            compilation_options: Default::default(),
+            buffers: &[Some(GpuVertex::LAYOUT)],
+        },
+        primitive: Default::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: DEPTH_FORMAT,
+            depth_write_enabled: Some(true),
+            depth_compare: Some(wgpu::CompareFunction::Greater),
+            stencil: Default::default(),
+            bias: Default::default(),
+        }),
+        multisample: Default::default(),
+        fragment: alpha_mode.map(|_| wgpu::FragmentState {
+            module,
+            entry_point: Some("fragment"),
+            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+            targets: &[],
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
+}
