@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use glam::Vec3;
 use hemicube::base::ids::TriangleId;
 use hemicube::base::sampling::{r2, triangle_from_square};
-use hemicube::patch::{MeshSettings, PatchMesh};
+use hemicube::patch::{MeshSettings, PatchMesh, Splits};
 
 use crate::support::scenes;
 
@@ -36,9 +36,9 @@ fn the_tree_finds_the_element_that_holds_a_point() {
     }
 }
 
-#[test]
-fn elements_are_conforming_and_small_and_fill_the_surface() {
-    let (scene, mesh) = furnace_mesh();
+/// The room is closed: an edge that only one element uses would be a T-vertex.
+#[track_caller]
+fn assert_conforming(mesh: &PatchMesh) {
     let mut uses: HashMap<[[u32; 3]; 2], usize> = HashMap::new();
     for element in &mesh.elements {
         let corners = mesh.corners(element);
@@ -50,8 +50,31 @@ fn elements_are_conforming_and_small_and_fill_the_surface() {
             *uses.entry(edge).or_default() += 1;
         }
     }
-    // The room is closed: an edge that only one element uses would be a T-vertex.
     assert!(uses.values().all(|&count| count == 2), "an edge is not shared by exactly two elements");
+}
+
+#[test]
+fn a_mesh_with_a_few_edges_halved_is_conforming() {
+    let (scene, mesh) = furnace_mesh();
+    let mut splits = Splits::default();
+    for element in mesh.elements.iter().step_by(37) {
+        for k in 0..3 {
+            let corners = mesh.corners(element);
+            splits.insert(corners[k], corners[(k + 1) % 3]);
+        }
+    }
+    let settings = MeshSettings { element_size: 0.13, patch_size: 0.4 };
+    let refined = PatchMesh::refined(&scene, &settings, &mut splits).unwrap();
+    assert_conforming(&refined);
+    assert!((mesh.elements.len() + 10..4 * mesh.elements.len()).contains(&refined.elements.len()));
+    let area: f64 = refined.elements.iter().map(|element| f64::from(element.area)).sum();
+    assert!((area - scene.area()).abs() < 1e-5);
+}
+
+#[test]
+fn elements_are_conforming_and_small_and_fill_the_surface() {
+    let (scene, mesh) = furnace_mesh();
+    assert_conforming(&mesh);
     let area: f64 = mesh.elements.iter().map(|element| f64::from(element.area)).sum();
     assert!((area - scene.area()).abs() < 1e-5);
 }
