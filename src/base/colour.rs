@@ -32,6 +32,23 @@ pub fn srgb_byte_table() -> [f32; 256] {
     std::array::from_fn(|byte| linear_from_srgb(byte as f32 / 255.0))
 }
 
+/// Tone map: colours below 0.8 stay as they are, brighter ones are drawn in towards white, as in shaders/tonemap.wgsl.
+///
+/// Source: Khronos 2024, "PBR Neutral Tone Mapper", without its offset.
+#[must_use]
+pub fn neutral(colour: Vec3) -> Vec3 {
+    const START: f32 = 0.8;
+    const DESATURATION: f32 = 0.15;
+    let peak = colour.max_element();
+    if peak < START {
+        return colour;
+    }
+    let room = 1.0 - START;
+    let new_peak = 1.0 - room * room / (peak + room - START);
+    let whitening = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
+    (colour * (new_peak / peak)).lerp(Vec3::splat(new_peak), whitening)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

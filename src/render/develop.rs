@@ -5,7 +5,7 @@
 use glam::Vec3;
 
 use super::{Look, Picture, ToneMap};
-use crate::base::colour::{luminance, srgb_from_linear};
+use crate::base::colour::{luminance, neutral, srgb_from_linear};
 
 /// The constants of shaders/meter.wgsl.
 const NUM_BINS: usize = 256;
@@ -75,20 +75,6 @@ fn display_bytes([r, g, b, coverage]: [f32; 4], at: [u32; 2], exposure: f32, loo
     let noise = gradient_noise(at);
     let byte = |channel: f32| (srgb_from_linear(channel) * 255.0 + noise).round() as u8;
     [byte(shown.x), byte(shown.y), byte(shown.z), 255]
-}
-
-/// Khronos PBR Neutral, as in shaders/tonemap.wgsl.
-fn neutral(colour: Vec3) -> Vec3 {
-    const START: f32 = 0.8;
-    const DESATURATION: f32 = 0.15;
-    let peak = colour.max_element();
-    if peak < START {
-        return colour;
-    }
-    let room = 1.0 - START;
-    let new_peak = 1.0 - room * room / (peak + room - START);
-    let whitening = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
-    (colour * (new_peak / peak)).lerp(Vec3::splat(new_peak), whitening)
 }
 
 /// Interleaved gradient noise in -0.49..0.49, as in shaders/tonemap.wgsl.

@@ -8,6 +8,7 @@ use std::f32::consts::PI;
 use glam::{Vec3, Vec4};
 
 use crate::baked::VertexLight;
+use crate::base::colour::neutral;
 use crate::scene::{Material, Scene};
 
 /// Light at one exposure.
@@ -40,18 +41,4 @@ impl Look<'_> {
 /// An emissive texture takes the place of the base colour's: beside it, reflected light does not count.
 pub(super) fn shows_emission(material: &Material) -> bool {
     material.is_emissive() && material.emissive_texture.is_some() && !material.unlit
-}
-
-/// Khronos PBR Neutral (Khronos 2024) without its offset, as in shaders/tonemap.wgsl.
-fn neutral(colour: Vec3) -> Vec3 {
-    const START: f32 = 0.8;
-    const DESATURATION: f32 = 0.15;
-    let peak = colour.max_element();
-    if peak < START {
-        return colour;
-    }
-    let room = 1.0 - START;
-    let new_peak = 1.0 - room * room / (peak + room - START);
-    let whitening = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
-    (colour * (new_peak / peak)).lerp(Vec3::splat(new_peak), whitening)
 }
