@@ -1,6 +1,6 @@
 //! Shadow map pass: what the light sees is lit (Williams 1978).
 //!
-//! What a map shows is in [`super::map_projection`], how texels are written and read in [`super::map_pipelines`].
+//! What a map shows is in `map_projection`, how texels are written and read in `map_pipelines`.
 
 use glam::Mat4;
 use wgpu::util::DeviceExt;
