@@ -4,7 +4,8 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
-use super::light_tree::{LightBounds, LightTree};
+use super::light_bounds::LightBounds;
+use super::light_tree::LightTree;
 use super::sampler::Sampler;
 use crate::base::colour::luminance;
 use crate::base::ids::TriangleId;

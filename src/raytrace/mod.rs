@@ -10,6 +10,7 @@ mod direct;
 mod film;
 mod gather;
 mod irradiance;
+mod light_bounds;
 mod light_tree;
 mod lights;
 mod mirrors;
