@@ -64,8 +64,7 @@ impl LightTree {
         let mut node = self.nodes.first()?;
         let mut probability = 1.0;
         let mut are_as_one = false;
-        loop {
-            let Below::Children(children) = node.below else { break };
+        while let Below::Children(children) = node.below {
             are_as_one |= node.bounds.are_as_one(point);
             let [left, right] = children.map(|child| &self.nodes[child as usize]);
             let share = if are_as_one { power_share(left, right) } else { left_share(left, right, point, normal)? };

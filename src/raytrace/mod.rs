@@ -6,6 +6,7 @@
 //! absent: the GPU, exposure and tone mapping (a picture here is linear radiance), light of punctual lights that a mirror
 //! throws.
 
+mod connection;
 mod direct;
 mod film;
 mod gather;
