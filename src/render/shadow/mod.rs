@@ -25,6 +25,7 @@ mod light_uniforms;
 mod map_pipelines;
 mod map_projection;
 mod near_plane;
+mod pipeline;
 mod raytraced;
 mod solid;
 mod visible_points;
