@@ -187,6 +187,6 @@ impl Map {
 }
 
 fn uniform_buffer(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::UNIFORM;
+    let usage = wgpu::BufferUsages::STORAGE;
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("shadow map"), contents, usage })
 }
