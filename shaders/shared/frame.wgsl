@@ -1,4 +1,7 @@
 // Bind group 0 of every pass: what one picture asks for. Written by src/render/frame.rs.
+//
+// A storage buffer, as all that branches depend on: for a uniform one lavapipe compiles the shader anew each time that it
+// is bound, and keeps what it has compiled.
 
 const MAX_GROUPS: u32 = 8u;
 
@@ -39,7 +42,7 @@ struct Frame {
     lux_scale: vec4f,
 }
 
-@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(0) var<storage, read> frame: Frame;
 
 fn group_weight(group: u32) -> vec3f {
     return frame.group_weights[min(group, MAX_GROUPS - 1u)].rgb;

@@ -27,7 +27,7 @@ struct LightSample {
     padding: vec2f,
 }
 
-@group(1) @binding(0) var<uniform> light: LightSample;
+@group(1) @binding(0) var<storage, read> light: LightSample;
 
 fn irradiance(point: vec3f, normal: vec3f) -> vec3f {
     let offset = light.place.xyz - light.place.w * point;

@@ -33,7 +33,7 @@ struct Material {
     unlit: u32,
 }
 
-@group(2) @binding(0) var<uniform> material: Material;
+@group(2) @binding(0) var<storage, read> material: Material;
 @group(2) @binding(1) var base_texture: texture_2d<f32>;
 @group(2) @binding(2) var base_sampler: sampler;
 @group(2) @binding(3) var metallic_texture: texture_2d<f32>;

@@ -15,7 +15,7 @@ struct ShadowMap {
     padding: vec3u,
 }
 
-@group(2) @binding(0) var<uniform> shadow_map: ShadowMap;
+@group(2) @binding(0) var<storage, read> shadow_map: ShadowMap;
 @group(2) @binding(1) var map_depth: texture_depth_2d_array;
 @group(2) @binding(2) var map_sampler: sampler_comparison;
 

@@ -106,8 +106,10 @@ impl RenderArgs {
 pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
     // What can be refused at once is refused before the bake.
     FileKind::of(&args.output)?;
-    if args.shadows.shadows.is_some() && args.rays.renderer != RendererName::Raster {
-        bail!("--shadows is for the raster renderer; rays find their own shadows");
+    if (args.shadows.shadows.is_some() || args.shadows.shadow_debug.is_some())
+        && args.rays.renderer != RendererName::Raster
+    {
+        bail!("--shadows and --shadow-debug are for the raster renderer; rays find their own shadows");
     }
     let reference = args.reference.as_deref().map(Raster::load).transpose()?;
     let scene = load(&args.scene, &args.variant)?;
@@ -190,7 +192,12 @@ fn dark(scene: Scene) -> BakedScene {
 }
 
 pub(super) fn look(args: &RenderArgs, baked: &BakedScene) -> Look {
-    let all = Look { exposure: args.exposure, shadows: args.shadows.settings(), ..Look::default() };
+    let all = Look {
+        exposure: args.exposure,
+        shadows: args.shadows.settings(),
+        shadow_debug: args.shadows.debug(),
+        ..Look::default()
+    };
     // Ambient light takes the place of the stored light; shadows bring direct light of their own.
     let shadowed = f32::from(u8::from(all.shadows.is_some()));
     match args.lighting() {

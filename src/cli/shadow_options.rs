@@ -8,7 +8,7 @@ use clap::{Args, ValueEnum};
 
 use crate::baked::BakedScene;
 use crate::gpu::{Gpu, SceneBuffers};
-use crate::render::shadow::{Case, Judge, shadow_difference};
+use crate::render::shadow::{Case, DebugView, Judge, ShadowDebug, shadow_difference};
 use crate::render::{ShadowScene, ShadowSettings, ShadowTechnique, View, save_display};
 use crate::scene::Camera;
 
@@ -25,6 +25,12 @@ pub struct ShadowOptions {
     /// Size that point and spot lights are given, metres; with many --light-samples their shadows become soft.
     #[arg(long, value_name = "M", default_value = "0", value_parser = radius)]
     pub light_radius: f32,
+    /// Draws over the picture what the shadows of one light work with.
+    #[arg(long, value_enum, value_name = "VIEW", conflicts_with_all = ["compare_shadows", "reference"])]
+    pub shadow_debug: Option<DebugName>,
+    /// Which light sample --shadow-debug shows, from 0.
+    #[arg(long, value_name = "N", default_value = "0", requires = "shadow_debug")]
+    pub shadow_debug_light: usize,
     /// Draws no light but where technique A finds other shadows than technique B, and prints how many pixels these are,
     /// more than one pixel away from an edge of a shadow (of B, or of the ray-traced one).
     #[arg(long, value_name = "A,B", value_enum, value_delimiter = ',', num_args = 1, conflicts_with_all = ["shadows", "reference"])]
@@ -48,6 +54,33 @@ pub enum TechniqueName {
     Raytraced,
 }
 
+/// Debug views as written on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum DebugName {
+    /// In how many shadow volumes, or under how many planar shadows, each point is.
+    StencilCounts,
+    /// Sides of the shadow volumes as translucent hulls.
+    Volumes,
+    /// Edges at which the light sees casters end.
+    Silhouettes,
+    /// Depth in the faces of the shadow map: near is bright, nothing is blue.
+    Map,
+    /// Planes that receive planar shadows, outlined.
+    Receivers,
+}
+
+impl DebugName {
+    fn view(self) -> DebugView {
+        match self {
+            DebugName::StencilCounts => DebugView::StencilCounts,
+            DebugName::Volumes => DebugView::Volumes,
+            DebugName::Silhouettes => DebugView::Silhouettes,
+            DebugName::Map => DebugView::Map,
+            DebugName::Receivers => DebugView::Receivers,
+        }
+    }
+}
+
 impl TechniqueName {
     fn technique(self) -> ShadowTechnique {
         match self {
@@ -66,6 +99,12 @@ impl ShadowOptions {
     #[must_use]
     pub fn settings(&self) -> Option<ShadowSettings> {
         self.shadows.map(|name| self.settings_of(name))
+    }
+
+    /// The debug view that is to be drawn.
+    #[must_use]
+    pub fn debug(&self) -> Option<ShadowDebug> {
+        self.shadow_debug.map(|name| ShadowDebug { view: name.view(), light: self.shadow_debug_light })
     }
 
     /// The two techniques that are to be compared.

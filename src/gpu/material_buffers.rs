@@ -81,7 +81,7 @@ pub fn material_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     };
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
     let uniform = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Uniform,
+        ty: wgpu::BufferBindingType::Storage { read_only: true },
         has_dynamic_offset: false,
         min_binding_size: None,
     };
@@ -111,7 +111,7 @@ fn bind_group(
     let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some(&material.name),
         contents: bytemuck::bytes_of(&MaterialUniform::new(material)),
-        usage: wgpu::BufferUsages::UNIFORM,
+        usage: wgpu::BufferUsages::STORAGE,
     });
     let base = textures.bind(gpu, scene, material.base_colour_texture.as_ref(), Encoding::Srgb);
     let metallic = textures.bind(gpu, scene, material.metallic_roughness_texture.as_ref(), Encoding::Linear);

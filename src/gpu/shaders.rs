@@ -92,6 +92,22 @@ pub const VISIBLE_POINTS: Shader =
     shader!("visible points", "shared/frame.wgsl", "shared/visible_point.wgsl", "raytraced.wgsl");
 /// Lines and tinted faces over a picture.
 pub const OVERLAY: Shader = shader!("overlay", "shared/frame.wgsl", "shared/colour.wgsl", "overlay.wgsl");
+/// What the stencil counts, in colours over a picture.
+pub const STENCIL_COUNTS: Shader = shader!(
+    "stencil counts",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/false_colour.wgsl",
+    "stencil_counts.wgsl"
+);
+/// Depth in the faces of a shadow map.
+pub const MAP_FACES: Shader = shader!(
+    "map faces",
+    "shared/colour.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/visibility_map.wgsl",
+    "map_faces.wgsl"
+);
 /// Metering: the exposure that suits a picture.
 pub const METER: Shader = shader!("meter", "shared/frame.wgsl", "shared/colour.wgsl", "meter.wgsl");
 /// Tone mapping of a picture with one sample a pixel.
@@ -128,6 +144,8 @@ pub const ALL: &[&Shader] = &[
     &PLANAR_SHADOW,
     &VISIBLE_POINTS,
     &OVERLAY,
+    &STENCIL_COUNTS,
+    &MAP_FACES,
     &METER,
     &TONEMAP,
     &TONEMAP_SAMPLES,
@@ -181,6 +199,14 @@ mod tests {
             if let Err(message) = validate(&shader.source()) {
                 panic!("{}: {message}", shader.name);
             }
+        }
+    }
+
+    /// Lavapipe compiles a shader anew for the values of uniforms that its branches depend on; see ARCHITECTURE.md.
+    #[test]
+    fn no_branch_depends_on_a_uniform_buffer() {
+        for shader in ALL {
+            assert!(!shader.source().contains("var<uniform>"), "{}", shader.name);
         }
     }
 

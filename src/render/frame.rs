@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::frame_uniform::{frame_bind_group, frame_layout};
 use super::meter::Meter;
+use super::shadow::debug::DebugPass;
 use super::shadow::real_time::{RealTimeLight, Subject};
 use super::shadow::{ShadowScene, ShadowTechnique};
 use super::surface::{Direct, SurfacePass};
@@ -19,8 +20,11 @@ pub struct Renderer {
     surface: SurfacePass,
     lit: Option<LitPasses>,
     shadows: Option<Arc<ShadowScene>>,
+    /// Made when the first debug view is drawn.
+    debug: Option<DebugPass>,
     meter: Meter,
     tone_map: ToneMapPass,
+    output_format: wgpu::TextureFormat,
     samples: u32,
     targets: Option<Targets>,
 }
@@ -56,9 +60,11 @@ impl Renderer {
             surface: SurfacePass::new(gpu, &frame_layout, samples, Direct::Stored),
             lit: None,
             shadows: None,
+            debug: None,
             meter: Meter::new(gpu, &frame_layout),
             tone_map: ToneMapPass::new(gpu, &frame_layout, output_format, samples),
             frame_layout,
+            output_format,
             samples,
             targets: None,
         }
@@ -70,8 +76,9 @@ impl Renderer {
             (Some(last), Some(next)) => Arc::ptr_eq(last, next),
             _ => false,
         };
-        if let Some(lit) = self.lit.as_mut().filter(|_| !is_same) {
-            lit.light.forget();
+        if !is_same {
+            self.lit.iter_mut().for_each(|lit| lit.light.forget());
+            self.debug.iter_mut().for_each(DebugPass::forget);
         }
         self.shadows = shadows;
     }
@@ -94,9 +101,9 @@ impl Renderer {
         };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
 
-        if let (Some(settings), Some(shadows)) = (&look.shadows, &self.shadows) {
+        let subject = self.shadows.as_ref().map(|shadows| Subject { frame: &frame, scene, shadows, view, look });
+        if let (Some(settings), Some(subject)) = (&look.shadows, subject) {
             let lit = self.lit.get_or_insert_with(|| LitPasses::new(gpu, &self.frame_layout, self.samples));
-            let subject = Subject { frame: &frame, scene, shadows, view, look };
             // Direct irradiance from the lights themselves, each in its shadows.
             let direct = lit.light.draw(gpu, encoder, size, subject, settings);
             // Radiance from every visible point towards the eye: stored indirect light, and that direct light.
@@ -111,6 +118,12 @@ impl Renderer {
         }
         // Exposure, tone curve, sRGB, dither.
         self.tone_map.draw(gpu, encoder, &targets, &frame, self.meter.exposure(), target);
+
+        // What shadows work with.
+        if let (Some(debug), Some(subject)) = (look.shadow_debug, subject) {
+            let pass = self.debug.get_or_insert_with(|| DebugPass::new(gpu, &self.frame_layout, self.output_format));
+            pass.draw(gpu, encoder, target, size, subject, debug);
+        }
 
         self.targets = Some(targets);
     }

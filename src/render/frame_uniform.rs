@@ -72,7 +72,7 @@ pub fn frame_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
             binding: 0,
             visibility: wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
             ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
                 has_dynamic_offset: false,
                 min_binding_size: None,
             },
@@ -92,7 +92,7 @@ pub fn frame_bind_group(
     let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("frame"),
         contents: bytemuck::bytes_of(&FrameUniform::new(scene, view, look)),
-        usage: wgpu::BufferUsages::UNIFORM,
+        usage: wgpu::BufferUsages::STORAGE,
     });
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("frame"),

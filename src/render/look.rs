@@ -3,7 +3,7 @@
 use glam::Vec3;
 
 use super::false_colour::LuxScale;
-use super::shadow::ShadowSettings;
+use super::shadow::{ShadowDebug, ShadowSettings};
 use crate::base::ids::GroupId;
 
 /// Light groups that can be weighted; those beyond follow the last.
@@ -57,6 +57,8 @@ pub struct Look {
     pub direct: f32,
     /// Direct light comes from the lights themselves, with these shadows; none: it comes from the vertices, as baked.
     pub shadows: Option<ShadowSettings>,
+    /// What shadows work with is drawn over the picture.
+    pub shadow_debug: Option<ShadowDebug>,
     /// Factor on indirect irradiance.
     pub indirect: f32,
     /// Radiance that ideal white paint shows everywhere in addition: it makes unlit scenes visible.
@@ -82,6 +84,7 @@ impl Default for Look {
             lux_scale: LuxScale::default(),
             direct: 1.0,
             shadows: None,
+            shadow_debug: None,
             indirect: 1.0,
             ambient: Vec3::ZERO,
             group_weights: Vec::new(),

@@ -41,7 +41,8 @@ pub fn picture(
     size: [u32; 2],
     look: &Look,
 ) -> Result<Picture, GpuError> {
-    let shadows = look.shadows.as_ref().map(|_| Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene.clone()))));
+    let asks = look.shadows.is_some() || look.shadow_debug.is_some();
+    let shadows = asks.then(|| Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene.clone()))));
     picture_in_light(gpu, &SceneBuffers::new(gpu, baked), shadows, camera, size, look, SAMPLES)
 }
 

@@ -1,5 +1,6 @@
 //! Shadows: every technique against rays, on scenes made to break them.
 
+mod debug;
 mod devices;
 mod light;
 mod map;

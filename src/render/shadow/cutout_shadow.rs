@@ -12,13 +12,12 @@ use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use wgpu::util::DeviceExt;
 
-use super::light_targets::depth_stencil_format;
+use super::pipeline::{PipelineRecipe, against_depth, culling};
 use super::planar_shadow::SHADOWS;
 use super::real_time::Subject;
 use super::solid::SolidPipelines;
 use crate::base::ids::{MaterialId, TriangleId};
 use crate::gpu::material_buffers::material_layout;
-use crate::gpu::scene_buffers::GpuVertex;
 use crate::gpu::{Gpu, shaders};
 use crate::scene::{AlphaMode, Scene};
 
@@ -204,33 +203,15 @@ fn pipeline(
     samples: u32,
     cull_mode: Option<wgpu::Face>,
 ) -> wgpu::RenderPipeline {
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("cut-out shadow"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(GpuVertex::LAYOUT)],
-        },
-        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: depth_stencil_format(gpu),
-            depth_write_enabled: Some(false),
-            depth_compare: Some(wgpu::CompareFunction::Equal),
-            stencil: wgpu::StencilState { front: MARK, back: MARK, read_mask: !0, write_mask: SHADOWS },
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some("fragment"),
-            compilation_options: Default::default(),
-            targets: &[],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let stencil = wgpu::StencilState { front: MARK, back: MARK, read_mask: !0, write_mask: SHADOWS };
+    PipelineRecipe {
+        fragment: Some(("fragment", &[])),
+        primitive: culling(cull_mode),
+        depth_stencil: Some(against_depth(gpu, wgpu::CompareFunction::Equal, stencil, Default::default())),
+        samples,
+        ..PipelineRecipe::new("cut-out shadow", layout, module)
+    }
+    .make(gpu)
 }
 
 #[cfg(test)]

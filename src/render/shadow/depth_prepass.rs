@@ -1,9 +1,9 @@
 //! Depth prepass: which surfaces are visible, before light is added to them.
 
 use super::light_targets::{LightTargets, depth_stencil_format};
+use super::pipeline::{PipelineRecipe, culling, nearest};
 use super::solid::{SolidPipelines, bind_mesh, solid_batches};
 use crate::gpu::material_buffers::material_layout;
-use crate::gpu::scene_buffers::GpuVertex;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 use crate::render::Look;
 use crate::scene::AlphaMode;
@@ -65,33 +65,14 @@ fn pipeline(
     is_mask: bool,
     cull_mode: Option<wgpu::Face>,
 ) -> wgpu::RenderPipeline {
-    // `ALPHA_MASK` of the shader.
-    let constants = [("ALPHA_MODE", 1.0)];
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("depth prepass"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(GpuVertex::LAYOUT)],
-        },
-        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: depth_stencil_format(gpu),
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
-        fragment: is_mask.then(|| wgpu::FragmentState {
-            module,
-            entry_point: Some("fragment"),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-            targets: &[],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    PipelineRecipe {
+        // `ALPHA_MASK` of the shader.
+        constants: &[("ALPHA_MODE", 1.0)],
+        fragment: is_mask.then_some(("fragment", &[])),
+        primitive: culling(cull_mode),
+        depth_stencil: Some(nearest(depth_stencil_format(gpu))),
+        samples,
+        ..PipelineRecipe::new("depth prepass", layout, module)
+    }
+    .make(gpu)
 }

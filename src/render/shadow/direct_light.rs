@@ -1,8 +1,8 @@
 //! Direct light pass: adds one light sample wherever it is not in shadow.
 
-use super::light_targets::{LightTargets, depth_stencil_format, irradiance_format};
+use super::light_targets::{LightTargets, irradiance_format};
+use super::pipeline::{PipelineRecipe, against_depth, culling};
 use super::solid::SolidPipelines;
-use crate::gpu::scene_buffers::GpuVertex;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 use crate::render::Look;
 
@@ -116,40 +116,23 @@ fn pipeline(
         depth_fail_op: wgpu::StencilOperation::Keep,
         pass_op: wgpu::StencilOperation::IncrementClamp,
     };
+    let stencil = wgpu::StencilState { front: face, back: face, read_mask: lit.read_mask, write_mask: !0 };
     let sum = wgpu::BlendComponent {
         src_factor: wgpu::BlendFactor::One,
         dst_factor: wgpu::BlendFactor::One,
         operation: lit.operation,
     };
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("direct light"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(GpuVertex::LAYOUT)],
-        },
-        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: depth_stencil_format(gpu),
-            depth_write_enabled: Some(false),
-            depth_compare: Some(wgpu::CompareFunction::Equal),
-            stencil: wgpu::StencilState { front: face, back: face, read_mask: lit.read_mask, write_mask: !0 },
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some("fragment"),
-            compilation_options: Default::default(),
-            targets: &[Some(wgpu::ColorTargetState {
-                format: irradiance_format(gpu, samples),
-                blend: Some(wgpu::BlendState { color: sum, alpha: sum }),
-                write_mask: wgpu::ColorWrites::ALL,
-            })],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let target = wgpu::ColorTargetState {
+        format: irradiance_format(gpu, samples),
+        blend: Some(wgpu::BlendState { color: sum, alpha: sum }),
+        write_mask: wgpu::ColorWrites::ALL,
+    };
+    PipelineRecipe {
+        fragment: Some(("fragment", &[Some(target)])),
+        primitive: culling(cull_mode),
+        depth_stencil: Some(against_depth(gpu, wgpu::CompareFunction::Equal, stencil, Default::default())),
+        samples,
+        ..PipelineRecipe::new("direct light", layout, module)
+    }
+    .make(gpu)
 }

@@ -56,7 +56,9 @@ impl LightTargets {
         let copied = if samples > 1 { wgpu::TextureUsages::empty() } else { wgpu::TextureUsages::COPY_SRC };
         let read = wgpu::TextureUsages::TEXTURE_BINDING;
         let irradiance = texture("direct irradiance", irradiance_format(gpu, samples), drawn | read | copied);
-        let depth_stencil = texture("depth and stencil", depth_stencil_format(gpu), drawn | copied);
+        // Debug views read the stencil of pictures with one sample a pixel.
+        let inspected = if samples > 1 { copied } else { copied | read };
+        let depth_stencil = texture("depth and stencil", depth_stencil_format(gpu), drawn | inspected);
         Self {
             size,
             depth_stencil: depth_stencil.create_view(&Default::default()),

@@ -61,7 +61,7 @@ pub fn light_sample_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
             binding: 0,
             visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Uniform,
+                ty: wgpu::BufferBindingType::Storage { read_only: true },
                 has_dynamic_offset: true,
                 min_binding_size: None,
             },
@@ -85,7 +85,7 @@ impl LightUniforms {
         let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("light samples"),
             contents: &bytes,
-            usage: wgpu::BufferUsages::UNIFORM,
+            usage: wgpu::BufferUsages::STORAGE,
         });
         let binding = wgpu::BufferBinding {
             buffer: &buffer,

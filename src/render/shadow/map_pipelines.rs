@@ -1,7 +1,7 @@
 //! How shadow maps are written and read: pipelines of casters, layouts of bindings.
 
+use super::pipeline::{PipelineRecipe, nearest};
 use crate::gpu::Gpu;
-use crate::gpu::scene_buffers::GpuVertex;
 
 /// Of every map.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -11,7 +11,7 @@ fn entry(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType) ->
 }
 
 const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
-    ty: wgpu::BufferBindingType::Uniform,
+    ty: wgpu::BufferBindingType::Storage { read_only: true },
     has_dynamic_offset: false,
     min_binding_size: None,
 };
@@ -46,32 +46,11 @@ pub fn pipeline(
     module: &wgpu::ShaderModule,
     alpha_mode: Option<f64>,
 ) -> wgpu::RenderPipeline {
-    let constants = [("ALPHA_MODE", alpha_mode.unwrap_or(0.0))];
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("shadow map"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(GpuVertex::LAYOUT)],
-        },
-        primitive: Default::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(true),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: Default::default(),
-        fragment: alpha_mode.map(|_| wgpu::FragmentState {
-            module,
-            entry_point: Some("fragment"),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-            targets: &[],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    PipelineRecipe {
+        constants: &[("ALPHA_MODE", alpha_mode.unwrap_or(0.0))],
+        fragment: alpha_mode.map(|_| ("fragment", [].as_slice())),
+        depth_stencil: Some(nearest(DEPTH_FORMAT)),
+        ..PipelineRecipe::new("shadow map", layout, module)
+    }
+    .make(gpu)
 }

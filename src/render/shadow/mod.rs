@@ -6,6 +6,7 @@
 //! half opacity on) and shadows on them (they keep the light of the bake).
 
 pub mod casters;
+pub mod debug;
 pub mod difference;
 pub mod light_samples;
 pub mod planar_shadow;
@@ -25,11 +26,13 @@ mod light_uniforms;
 mod map_pipelines;
 mod map_projection;
 mod near_plane;
+mod pipeline;
 mod raytraced;
 mod solid;
 mod visible_points;
 mod volume_pipelines;
 
+pub use debug::{DebugView, ShadowDebug};
 pub use difference::{Case, Decisions, Judge, ShadowDifference, shadow_difference};
 pub use light_samples::{LightSample, light_samples};
 pub use planar_shadow::PlanarSettings;

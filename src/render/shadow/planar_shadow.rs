@@ -10,7 +10,7 @@ use glam::Vec4;
 use wgpu::util::DeviceExt;
 
 use super::flattening::{Receiver, flattened, receivers};
-use super::light_targets::depth_stencil_format;
+use super::pipeline::{CORNER, PipelineRecipe, against_depth};
 use super::real_time::Subject;
 use crate::gpu::{Gpu, shaders};
 
@@ -73,8 +73,8 @@ impl PlanarShadowPass {
             bind_group_layouts: &[Some(frame_layout)],
             immediate_size: 0,
         });
-        let mark =
-            pipeline(gpu, &layout, &module, samples, wgpu::CompareFunction::Equal, Default::default(), mark_stencil());
+        let on_receiver = against_depth(gpu, wgpu::CompareFunction::Equal, mark_stencil(), Default::default());
+        let mark = pipeline(gpu, &layout, &module, samples, on_receiver);
         Self { layout, module, samples, mark, shadow: None, receivers: Vec::new() }
     }
 
@@ -95,8 +95,8 @@ impl PlanarShadowPass {
                 (true, false) => (wgpu::CompareFunction::GreaterEqual, LIFT),
                 (false, _) => (wgpu::CompareFunction::GreaterEqual, Default::default()),
             };
-            let stencil = shadow_stencil(settings);
-            let pipeline = pipeline(gpu, &self.layout, &self.module, self.samples, compare, bias, stencil);
+            let tests = against_depth(gpu, compare, shadow_stencil(settings), bias);
+            let pipeline = pipeline(gpu, &self.layout, &self.module, self.samples, tests);
             self.shadow = Some((*settings, pipeline));
         }
     }
@@ -162,34 +162,13 @@ fn pipeline(
     layout: &wgpu::PipelineLayout,
     module: &wgpu::ShaderModule,
     samples: u32,
-    depth_compare: wgpu::CompareFunction,
-    bias: wgpu::DepthBiasState,
-    stencil: wgpu::StencilState,
+    depth_stencil: wgpu::DepthStencilState,
 ) -> wgpu::RenderPipeline {
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("planar shadow"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Vec4>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &wgpu::vertex_attr_array![0 => Float32x4],
-            })],
-        },
-        primitive: Default::default(),
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: depth_stencil_format(gpu),
-            depth_write_enabled: Some(false),
-            depth_compare: Some(depth_compare),
-            stencil,
-            bias,
-        }),
-        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
-        fragment: None,
-        multiview_mask: None,
-        cache: None,
-    })
+    PipelineRecipe {
+        vertex: Some(CORNER),
+        depth_stencil: Some(depth_stencil),
+        samples,
+        ..PipelineRecipe::new("planar shadow", layout, module)
+    }
+    .make(gpu)
 }

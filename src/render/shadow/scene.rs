@@ -44,6 +44,12 @@ impl ShadowScene {
         &self.scene
     }
 
+    /// Triangles that throw shadows.
+    #[must_use]
+    pub fn casters(&self) -> &Casters {
+        &self.casters
+    }
+
     /// Lines of sight through it.
     pub(super) fn rays(&self) -> &ExactRays {
         self.rays.get_or_init(|| ExactRays::new(Arc::clone(&self.scene)))

@@ -92,7 +92,7 @@ impl ShadowMapPass {
         }
     }
 
-    /// Draws the map of a light sample and binds it for the pass that reads it.
+    /// Draws the map of a light sample and binds it for the pass that reads it; the number of its faces, and the binding.
     pub fn draw(
         &self,
         gpu: &Gpu,
@@ -100,15 +100,16 @@ impl ShadowMapPass {
         subject: Subject<'_>,
         sample: &LightSample,
         settings: &MapSettings,
-    ) -> wgpu::BindGroup {
+    ) -> (u32, wgpu::BindGroup) {
         let map = self.map.as_ref().expect("room for maps has been made");
         let uniform = MapUniform::new(subject.shadows.scene(), sample, settings);
         let faces = uniform.projection_from_world.iter().zip(&map.faces).take(uniform.num_faces as usize);
         for (projection_from_world, face) in faces {
             self.draw_face(gpu, encoder, subject, projection_from_world, face);
         }
+        let num_faces = uniform.num_faces;
         let uniform = uniform_buffer(gpu, bytemuck::bytes_of(&uniform));
-        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("shadow map"),
             layout: &self.read_layout,
             entries: &[
@@ -116,7 +117,8 @@ impl ShadowMapPass {
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&map.all) },
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.sampler) },
             ],
-        })
+        });
+        (num_faces, bindings)
     }
 
     fn draw_face(
@@ -185,6 +187,6 @@ impl Map {
 }
 
 fn uniform_buffer(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::UNIFORM;
+    let usage = wgpu::BufferUsages::STORAGE;
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("shadow map"), contents, usage })
 }

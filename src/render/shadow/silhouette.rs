@@ -55,9 +55,7 @@ pub fn hull(casters: &Casters, facing: &[i32], place: Vec4, counting: Counting) 
     let of_edges = |edges: &[Edge]| {
         let mut hull = Hull::default();
         for edge in edges {
-            let sides = &casters.sides[edge.sides.start as usize..edge.sides.end as usize];
-            let count = sides.iter().map(|side| side.direction * facing[side.triangle as usize]).sum();
-            hull.add_side(edge.ends, count, is_directional);
+            hull.add_side(edge.ends, count(casters, edge, facing), is_directional);
         }
         hull
     };
@@ -72,6 +70,18 @@ pub fn hull(casters: &Casters, facing: &[i32], place: Vec4, counting: Counting) 
         }
     }
     hull
+}
+
+/// How often, and which way round, an edge is a side of the volumes.
+fn count(casters: &Casters, edge: &Edge, facing: &[i32]) -> i32 {
+    let sides = &casters.sides[edge.sides.start as usize..edge.sides.end as usize];
+    sides.iter().map(|side| side.direction * facing[side.triangle as usize]).sum()
+}
+
+/// Ends of the edges at which the light sees casters end.
+#[must_use]
+pub fn silhouette(casters: &Casters, facing: &[i32]) -> Vec<[u32; 2]> {
+    casters.edges.iter().filter(|edge| count(casters, edge, facing) != 0).map(|edge| edge.ends).collect()
 }
 
 /// The shadow volumes of all triangles as if no two were joined: each closed in itself. Slow, and right by construction.

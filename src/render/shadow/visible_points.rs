@@ -2,10 +2,10 @@
 
 use glam::Vec3;
 
-use super::light_targets::{LightTargets, depth_stencil_format};
+use super::light_targets::LightTargets;
+use super::pipeline::{PipelineRecipe, against_depth, culling};
 use super::solid::SolidPipelines;
 use crate::gpu::readback::read_texture;
-use crate::gpu::scene_buffers::GpuVertex;
 use crate::gpu::{Gpu, GpuError, SceneBuffers, shaders};
 use crate::render::Look;
 
@@ -127,31 +127,12 @@ fn pipeline(
     cull_mode: Option<wgpu::Face>,
 ) -> wgpu::RenderPipeline {
     let target = Some(wgpu::TextureFormat::Rgba32Float.into());
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("visible points"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(GpuVertex::LAYOUT)],
-        },
-        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: depth_stencil_format(gpu),
-            depth_write_enabled: Some(false),
-            depth_compare: Some(wgpu::CompareFunction::Equal),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: Default::default(),
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some("fragment"),
-            compilation_options: Default::default(),
-            targets: &[target.clone(), target],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+    let visible = against_depth(gpu, wgpu::CompareFunction::Equal, Default::default(), Default::default());
+    PipelineRecipe {
+        fragment: Some(("fragment", &[target.clone(), target])),
+        primitive: culling(cull_mode),
+        depth_stencil: Some(visible),
+        ..PipelineRecipe::new("visible points", layout, module)
+    }
+    .make(gpu)
 }

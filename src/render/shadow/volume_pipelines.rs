@@ -1,8 +1,6 @@
 //! Pipelines that count shadow volumes in the stencil.
 
-use glam::Vec4;
-
-use super::light_targets::depth_stencil_format;
+use super::pipeline::{CORNER, PipelineRecipe, against_depth};
 use super::silhouette::Counting;
 use crate::gpu::Gpu;
 
@@ -55,33 +53,20 @@ fn counted(gpu: &Gpu, counting: Counting) -> wgpu::DepthStencilState {
         Counting::DepthPass => (face(Keep, IncrementWrap), face(Keep, DecrementWrap)),
         Counting::DepthFail => (face(DecrementWrap, Keep), face(IncrementWrap, Keep)),
     };
-    depth_stencil(gpu, wgpu::CompareFunction::Greater, [front, back], DEEPER)
+    let stencil = wgpu::StencilState { front, back, read_mask: !0, write_mask: !0 };
+    against_depth(gpu, wgpu::CompareFunction::Greater, stencil, DEEPER)
 }
 
 /// Marks what is visible.
 fn darkened(gpu: &Gpu) -> wgpu::DepthStencilState {
     let mark = face(wgpu::StencilOperation::Keep, wgpu::StencilOperation::Replace);
-    depth_stencil(gpu, wgpu::CompareFunction::Equal, [mark; 2], Default::default())
+    let stencil = wgpu::StencilState { front: mark, back: mark, read_mask: !0, write_mask: !0 };
+    against_depth(gpu, wgpu::CompareFunction::Equal, stencil, Default::default())
 }
 
 fn face(depth_fail_op: wgpu::StencilOperation, pass_op: wgpu::StencilOperation) -> wgpu::StencilFaceState {
     let (compare, fail_op) = (wgpu::CompareFunction::Always, wgpu::StencilOperation::Keep);
     wgpu::StencilFaceState { compare, fail_op, depth_fail_op, pass_op }
-}
-
-fn depth_stencil(
-    gpu: &Gpu,
-    compare: wgpu::CompareFunction,
-    [front, back]: [wgpu::StencilFaceState; 2],
-    bias: wgpu::DepthBiasState,
-) -> wgpu::DepthStencilState {
-    wgpu::DepthStencilState {
-        format: depth_stencil_format(gpu),
-        depth_write_enabled: Some(false),
-        depth_compare: Some(compare),
-        stencil: wgpu::StencilState { front, back, read_mask: !0, write_mask: !0 },
-        bias,
-    }
 }
 
 fn pipeline(
@@ -93,30 +78,14 @@ fn pipeline(
     primitive: wgpu::PrimitiveState,
     depth_stencil: wgpu::DepthStencilState,
 ) -> wgpu::RenderPipeline {
-    let constants = [("FAR_DEPTH", f64::from(far_depth.unwrap_or(0.0)))];
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some("shadow volume"),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: Default::default(),
-            buffers: &[Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<Vec4>() as u64,
-                step_mode: wgpu::VertexStepMode::Vertex,
-                attributes: &wgpu::vertex_attr_array![0 => Float32x4],
-            })],
-        },
+    PipelineRecipe {
+        constants: &[("FAR_DEPTH", f64::from(far_depth.unwrap_or(0.0)))],
+        vertex: Some(CORNER),
+        fragment: far_depth.map(|_| ("beyond", [].as_slice())),
         primitive,
         depth_stencil: Some(depth_stencil),
-        multisample: wgpu::MultisampleState { count: samples, ..Default::default() },
-        fragment: far_depth.map(|_| wgpu::FragmentState {
-            module,
-            entry_point: Some("beyond"),
-            compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
-            targets: &[],
-        }),
-        multiview_mask: None,
-        cache: None,
-    })
+        samples,
+        ..PipelineRecipe::new("shadow volume", layout, module)
+    }
+    .make(gpu)
 }

@@ -66,13 +66,8 @@ impl RealTimeLight {
         settings: &ShadowSettings,
         index: usize,
     ) -> Result<Vec<u8>, GpuError> {
-        let samples = settings.samples(subject.shadows.scene());
-        let targets = self.targets_of(gpu, size);
-        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
-        self.prepare(gpu, subject, &samples, settings);
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.prepass.draw(&mut encoder, &targets, subject.frame, subject.scene, subject.look);
-        self.mark_shadows(gpu, &mut encoder, &targets, subject, settings, &lights, (index, &samples[index]));
+        let targets = self.mark(gpu, &mut encoder, size, subject, settings, index);
         gpu.queue.submit([encoder.finish()]);
         let stencil = read_stencil(gpu, &targets.depth_stencil_texture);
         self.targets = Some(targets);

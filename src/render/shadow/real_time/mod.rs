@@ -1,6 +1,7 @@
 //! Direct light, light sample by light sample, in the shadows of one technique.
 
 mod decisions;
+mod inspection;
 
 pub use decisions::SampleDecisions;
 
@@ -186,7 +187,7 @@ impl RealTimeLight {
         self.mark_shadows(gpu, encoder, targets, subject, settings, lights, (index, sample));
         // Light where there are none.
         let is_map = settings.technique == ShadowTechnique::Map;
-        let map = is_map.then(|| self.maps.draw(gpu, encoder, subject, sample, &settings.maps));
+        let map = is_map.then(|| self.maps.draw(gpu, encoder, subject, sample, &settings.maps).1);
         let mut pass = direct_light::begin(encoder, targets);
         pass.set_bind_group(0, subject.frame, &[]);
         lights.bind(&mut pass, index);
