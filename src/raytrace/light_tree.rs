@@ -61,7 +61,7 @@ impl LightTree {
 
     /// A lamp that may light `point`, and the probability of its choice; `number` is used up.
     pub(super) fn choose(&self, point: Vec3, normal: Vec3, mut number: f32) -> Option<(usize, f32)> {
-        let mut node = self.nodes.first()?;
+        let mut node = self.nodes.first().filter(|root| root.bounds.importance(point, normal) > 0.0)?;
         let mut probability = 1.0;
         let mut are_as_one = false;
         while let Below::Children(children) = node.below {
@@ -81,6 +81,9 @@ impl LightTree {
 
     /// The probability with which [`Self::choose`] would choose `lamp`.
     pub(super) fn probability(&self, lamp: usize, point: Vec3, normal: Vec3) -> f32 {
+        if self.nodes[0].bounds.importance(point, normal) <= 0.0 {
+            return 0.0;
+        }
         let leaf = self.leaf_of[lamp];
         let above = |at: &u32| Some(self.nodes[*at as usize].parent).filter(|&parent| parent != ROOT);
         let way_up = || std::iter::successors(Some(leaf), above);
