@@ -10,7 +10,7 @@ use hemicube::render::{Exposure, Look, Picture, Raster, Renderer, ToneMap, View,
 use hemicube::scene::Material;
 use wgpu::{CommandEncoderDescriptor, Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages};
 
-use super::stage::{SIZE, display_at, draw, plain};
+use super::stage::{SIZE, display_at, draw, four_texels, plain};
 use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, square_camera};
 

@@ -8,7 +8,7 @@ use hemicube::gpu::SceneBuffers;
 use hemicube::render::{Look, picture_of};
 use hemicube::scene::{AlphaMode, Material};
 
-use super::stage::{SIZE, assert_close, draw, plain, radiance_at};
+use super::stage::{SIZE, assert_close, draw, plain, quarters, radiance_at};
 use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, slot, square_camera, texture};
 

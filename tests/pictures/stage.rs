@@ -64,3 +64,8 @@ pub fn four_texels() -> Quads {
     quads.baked.scene.textures.push(texture(2, &texels));
     quads
 }
+
+/// Display colours of the four quarters, row by row.
+pub fn quarters(picture: &Picture) -> [[u8; 3]; 4] {
+    [(16, 16), (48, 16), (16, 48), (48, 48)].map(|(x, y)| display_at(picture, x, y))
+}

@@ -3,16 +3,10 @@
 use std::f32::consts::PI;
 
 use glam::{Affine2, Vec2, Vec3};
-use hemicube::render::Picture;
 use hemicube::scene::Material;
 
-use super::stage::{assert_within, centre, display_at, draw, four_texels, plain, radiance_at};
+use super::stage::{assert_within, centre, draw, four_texels, plain, quarters, radiance_at};
 use crate::support::quads::{Quads, paint, slot, texture};
-
-/// Display colours of the four quarters, row by row.
-fn quarters(picture: &Picture) -> [[u8; 3]; 4] {
-    [(16, 16), (48, 16), (16, 48), (48, 48)].map(|(x, y)| display_at(picture, x, y))
-}
 
 #[test]
 fn textures_stand_upright() {
