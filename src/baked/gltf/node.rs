@@ -1,4 +1,4 @@
-//! Nodes: meshes, which already stand in the world, and the lights and cameras, which a node places.
+//! Nodes: what hangs on the branches of the tree, and the lights and cameras beside it.
 
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
@@ -16,39 +16,48 @@ const NEAR: f32 = 0.01;
 /// Where an orthographic view ends, metres; glTF wants one, nobody here reads it.
 const FAR: f32 = 1000.0;
 
-/// One node for every branch, light and camera, in this order; and which of them have none above.
+/// One node for every branch, and for every light and camera that no branch carries; and which of them have none above.
 pub(super) fn nodes(scene: &Scene, branches: &[Branch]) -> (Vec<Value>, Vec<usize>) {
-    let mut mesh_nodes: Vec<Value> = branches.iter().map(|branch| named(&branch.name)).collect();
+    let mut nodes: Vec<Value> = branches.iter().map(Branch::node).collect();
     let drawn = branches.iter().enumerate().filter(|(_, branch)| !branch.triangles.is_empty());
     for (mesh, (node, _)) in drawn.enumerate() {
-        mesh_nodes[node]["mesh"] = json!(mesh);
+        nodes[node]["mesh"] = json!(mesh);
     }
     for (id, branch) in branches.iter().enumerate() {
+        if let Some(light) = branch.light {
+            nodes[id]["extensions"] = carrying(light);
+        }
+        if let Some(camera) = branch.camera {
+            nodes[id]["camera"] = json!(camera);
+        }
         if let Some(parent) = branch.parent {
-            let children = &mut mesh_nodes[parent]["children"];
+            let children = &mut nodes[parent]["children"];
             match children.as_array_mut() {
                 Some(children) => children.push(json!(id)),
                 None => *children = json!([id]),
             }
         }
     }
-    let light_node = |(id, light): (usize, &Light)| {
+    let is_free = |carried: fn(&Branch) -> Option<usize>, id| branches.iter().all(|branch| carried(branch) != Some(id));
+    for (id, light) in scene.lights.iter().enumerate().filter(|&(id, _)| is_free(|branch| branch.light, id)) {
         let (translation, rotation) = place_of_light(light);
         let mut node = placed(&light.name, translation, rotation);
-        node["extensions"] = json!({ LIGHTS_EXTENSION: { "light": id } });
-        node
-    };
-    let camera_node = |(id, camera): (usize, &Camera)| {
+        node["extensions"] = carrying(id);
+        nodes.push(node);
+    }
+    for (id, camera) in scene.cameras.iter().enumerate().filter(|&(id, _)| is_free(|branch| branch.camera, id)) {
         let mut node = placed(&camera.name, camera.position, camera.world_from_view);
         node["camera"] = json!(id);
-        node
-    };
-    let lights = scene.lights.iter().enumerate().map(light_node);
-    let cameras = scene.cameras.iter().enumerate().map(camera_node);
-    let nodes: Vec<Value> = mesh_nodes.into_iter().chain(lights).chain(cameras).collect();
+        nodes.push(node);
+    }
     let is_root = |id: &usize| branches.get(*id).is_none_or(|branch| branch.parent.is_none());
     let roots = (0..nodes.len()).filter(is_root).collect();
     (nodes, roots)
+}
+
+/// Extensions of a node that carries a light.
+fn carrying(light: usize) -> Value {
+    json!({ LIGHTS_EXTENSION: { "light": light } })
 }
 
 fn placed(name: &str, translation: Vec3, rotation: Quat) -> Value {

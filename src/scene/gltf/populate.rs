@@ -1,13 +1,12 @@
-//! What hangs on the nodes: meshes are placed, lights and cameras taken along; the tree itself is not kept.
+//! What hangs on the nodes: meshes are placed, lights and cameras taken along; the tree is kept beside them.
 
-use glam::DAffine3;
-use gltf::json::{Index, Node};
+use gltf::json::Index;
 
 use super::devices;
 use super::document::Document;
 use super::error::Cause;
 use super::mesh::Meshes;
-use super::tree::PlacedNode;
+use super::tree::{PlacedNode, transform};
 use crate::scene::{NamedNode, Scene};
 
 /// Fills a scene whose materials are there already.
@@ -23,7 +22,7 @@ impl<'a> Population<'a> {
     pub fn new(document: &'a Document<'a>, nodes: &[PlacedNode<'_>], mut scene: Scene, meshes: Meshes<'a>) -> Self {
         let named = |placed: &PlacedNode<'_>| {
             let name = placed.node.name.clone().unwrap_or_default();
-            NamedNode { name, parent: placed.parent, ..NamedNode::default() }
+            NamedNode { name, parent: placed.parent, transform: transform(placed.node), ..NamedNode::default() }
         };
         scene.nodes = nodes.iter().map(named).collect();
         Self { document, scene, light_definitions: Vec::new(), meshes }
@@ -39,25 +38,27 @@ impl<'a> Population<'a> {
         if let Some(camera) = node.camera {
             let camera = self.document.find(camera, "camera", user)?;
             let name = name_of([&node.name, &camera.name], "camera", self.scene.cameras.len());
+            self.scene.nodes[place].camera = Some(self.scene.cameras.len());
             self.scene.cameras.push(devices::camera(camera, name, world_from_node)?);
         }
         if let Some(light) = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref()) {
-            self.place_light(node, light.light, world_from_node, user)?;
+            self.place_light(place, placed, light.light)?;
         }
         Ok(())
     }
 
     fn place_light(
         &mut self,
-        node: &Node,
+        place: usize,
+        placed: &PlacedNode<'_>,
         index: Index<devices::LightDefinition>,
-        world_from_node: DAffine3,
-        user: impl Fn() -> String,
     ) -> Result<(), Cause> {
-        let definition = self.document.find(index, "light", user)?;
+        let PlacedNode { index: node_index, node, world_from_node, .. } = *placed;
+        let definition = self.document.find(index, "light", || format!("node {node_index}"))?;
         let name = name_of([&node.name, &definition.name], "light", index.value());
         match devices::light(definition, &name, world_from_node)? {
             Some(light) => {
+                self.scene.nodes[place].light = Some(self.scene.lights.len());
                 self.scene.lights.push(light);
                 self.light_definitions.push(index.value());
             }
