@@ -20,7 +20,7 @@ use crate::trace::Hit;
 
 /// Where rays start that look for what lights stand close to.
 pub(super) struct Beams {
-    /// By light `[l]`; none of directional ones.
+    /// By light `[l]`; none of directional ones, and empty where there are no others.
     beams: Vec<Option<Beam>>,
 }
 
@@ -47,7 +47,15 @@ impl Beams {
         let mut beams: Vec<Option<Beam>> = scene.lights.iter().map(beam).collect();
         let whole: f32 = beams.iter().flatten().map(|beam| beam.probability).sum();
         beams.iter_mut().flatten().for_each(|beam| beam.probability /= whole);
+        if beams.iter().all(Option::is_none) {
+            beams.clear();
+        }
         Self { beams }
+    }
+
+    /// No light can be close to anything.
+    pub(super) fn is_empty(&self) -> bool {
+        self.beams.is_empty()
     }
 
     /// One of the lights, the mightiest being the likeliest.
@@ -66,7 +74,7 @@ impl Beams {
 
     /// Density per steradian, seen from where `surface` was met at `distance`, with which a ray of `light` finds it.
     pub(super) fn density(&self, light: usize, arrival: &Arrival, surface: &Surface, distance: f32) -> f32 {
-        let Some(beam) = &self.beams[light] else { return 0.0 };
+        let Some(Some(beam)) = self.beams.get(light) else { return 0.0 };
         let (cos_lit, cos_seen) = (surface.geometric.dot(arrival.to_light), surface.geometric.dot(surface.to_viewer));
         let per_area = beam.density() * cos_lit.max(0.0) / (arrival.distance * arrival.distance);
         per_area * distance * distance / cos_seen.max(f32::MIN_POSITIVE)

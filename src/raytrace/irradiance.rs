@@ -127,7 +127,7 @@ impl Place {
             direct += paths.emitter_irradiance(self.origin, self.normal, self.geometric, density, sampler);
         }
         let mut indirect = Vec3::ZERO;
-        if paths.max_bounces > 0 {
+        if paths.connects_at(0) {
             indirect += paths.connected_irradiance(self.origin, self.normal, self.geometric, density, sampler);
         }
         let direction = cosine_hemisphere(self.normal, sampler.square());

@@ -32,7 +32,7 @@ pub(super) struct PathTracer<'a> {
     pub tracer: &'a Tracer<'a>,
     pub lights: Lights<'a>,
     pub beams: Beams,
-    pub max_bounces: u32,
+    max_bounces: u32,
     pub has_specular: bool,
     pub has_panes: bool,
     height: f32,
@@ -159,7 +159,7 @@ impl<'a> PathTracer<'a> {
                 break;
             }
             light.reflected += throughput * self.direct_beside_path(&surface, &ray, hit.distance, sampler);
-            if bounce + 1 < self.max_bounces && surface.reflectance != Vec3::ZERO {
+            if self.connects_at(bounce + 1) && surface.reflectance != Vec3::ZERO {
                 light.reflected += throughput * self.connected(&surface, sampler);
             }
             let Some(scattered) = surface.scatter(sampler) else { break };
@@ -177,6 +177,11 @@ impl<'a> PathTracer<'a> {
             met = self.meet(&ray, sampler);
         }
         light
+    }
+
+    /// Light of punctual lights is looked for that the surface at a bounce would reflect.
+    pub(super) fn connects_at(&self, bounce: u32) -> bool {
+        !self.beams.is_empty() && bounce < self.max_bounces
     }
 
     /// Radiance towards the viewer that a surface reflects diffusely of the light that punctual lights throw on another.
