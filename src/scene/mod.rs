@@ -11,6 +11,7 @@ pub mod gltf;
 pub mod light;
 pub mod material;
 pub mod node;
+pub mod photometry;
 
 use std::ops::Range;
 
@@ -20,6 +21,7 @@ pub use camera::{Camera, Projection};
 pub use light::{Arrival, Light, LightKind};
 pub use material::{AlphaMode, Image, MAX_REFLECTANCE, Material, Sampler, SurfacePoint, Texture, TextureSlot, Wrap};
 pub use node::{NamedNode, Transform};
+pub use photometry::Profile;
 
 use crate::base::ids::{InstanceId, MaterialId, TriangleId};
 

@@ -1,3 +1,5 @@
+mod tree;
+
 use std::sync::Arc;
 
 use glam::{Affine2, Vec2, Vec3, Vec4};
@@ -6,8 +8,8 @@ use super::*;
 use crate::baked::VertexLight;
 use crate::base::ids::{GroupId, InstanceId, MaterialId, TextureId};
 use crate::scene::{
-    AlphaMode, Camera, Image, Instance, Light, LightKind, Material, NamedNode, Projection, Sampler, Texture,
-    TextureSlot, Transform, Triangle, Vertex, Wrap,
+    AlphaMode, Camera, Image, Instance, Light, LightKind, Material, Projection, Sampler, Texture, TextureSlot,
+    Triangle, Vertex, Wrap,
 };
 
 /// A one-pixel texture.
@@ -66,6 +68,7 @@ fn lights() -> Vec<Light> {
         kind,
         intensity: Vec3::new(40.0, 20.0, 10.0),
         range,
+        profile: None,
         group: GroupId(group),
     };
     let position = Vec3::new(1.0, 2.0, 3.0);
@@ -266,78 +269,6 @@ fn other_programs_see_exposed_light_on_unlit_surfaces() {
 
 fn paint_of_nothing() -> Material {
     Material { base_colour: Vec4::W, ..Material::default() }
-}
-
-/// A tree of nodes round the squares of [`scene`]: a turned house, a mirrored room in it, the squares, a lamp.
-fn tree() -> Vec<NamedNode> {
-    let node = |name: &str, parent, transform| NamedNode { name: name.into(), parent, transform, ..Default::default() };
-    let turned = Transform::Parts { translation: [3.0, 0.1, -7.0], rotation: [0.0, 0.6, 0.0, 0.8], scale: [2.0; 3] };
-    let mirrored = Transform::Matrix([-0.3, 0., 0., 0., 0.1, 1., 0., 0., 0., 0., 1., 0., 5., 6., 7., 1.]);
-    vec![
-        node("house", None, turned),
-        node("room", Some(0), mirrored),
-        NamedNode { instances: 0..1, ..node("", Some(1), Transform::default()) },
-        NamedNode { light: Some(1), camera: Some(0), ..node("lamp holder", Some(0), Transform::default()) },
-    ]
-}
-
-#[test]
-fn the_tree_is_kept_with_its_names_and_transforms() {
-    let glb = scene_to_glb(&Scene { nodes: tree(), ..scene() }).expect("small");
-    let file = gltf::Gltf::from_slice(&glb).expect("valid glTF");
-    let mut roots = file.scenes().flat_map(|scene| scene.nodes().collect::<Vec<_>>());
-    let house = roots.next().expect("the house");
-    let [room, holder] = &house.children().collect::<Vec<_>>()[..] else { panic!("two nodes in the house") };
-    let squares = room.children().next().expect("the squares");
-    let names = [&house, room, &squares, holder].map(|node| node.name().unwrap_or_default().to_owned());
-    assert_eq!(names, ["house", "room", "squares", "lamp holder"]);
-    assert!(house.mesh().is_none() && squares.mesh().is_some());
-    assert_eq!(holder.light().map(|light| light.index()), Some(1));
-    assert_eq!(holder.camera().map(|camera| camera.index()), Some(0));
-    let beside: Vec<_> =
-        roots.map(|node| (node.light().map(|l| l.index()), node.camera().map(|c| c.index()))).collect();
-    assert_eq!(beside, [(Some(0), None), (Some(2), None), (None, Some(1))]);
-    for (stored, back) in tree().iter().zip(&reloaded(&glb).nodes) {
-        assert_eq!((stored.parent, stored.transform), (back.parent, back.transform));
-    }
-}
-
-#[test]
-fn light_comes_back_bit_by_bit_from_a_turned_and_mirrored_node_and_the_mesh_stands_where_it_stood() {
-    let mut stored = baked();
-    stored.scene.nodes = tree();
-    let Ok(back) = from_scene(reloaded(&to_glb(&stored, 9.5).expect("small"))) else { panic!("the light is lost") };
-    let pairs = sorted_triangles(&stored.scene).into_iter().zip(sorted_triangles(&back.scene));
-    for (a, b) in pairs {
-        for v in a.vertices.map(|v| v as usize) {
-            let place = stored.scene.vertices[v].position;
-            let twin = |w: &u32| (back.scene.vertices[*w as usize].position - place).length() < 1e-5;
-            let w = *b.vertices.iter().find(|w| twin(w)).expect("a corner in the same place") as usize;
-            assert!((stored.scene.vertices[v].normal - back.scene.vertices[w].normal).length() < 1e-6);
-            for (stored, back) in stored.light.groups.iter().zip(&back.light.groups) {
-                assert_eq!((stored.direct[v], stored.indirect[v]), (back.direct[w], back.indirect[w]));
-            }
-        }
-        let front = |scene: &Scene, triangle: &Triangle| {
-            crate::scene::normal_of(triangle.vertices.map(|v| scene.vertices[v as usize].position))
-        };
-        assert!((front(&stored.scene, a) - front(&back.scene, b)).length() < 1e-4);
-    }
-}
-
-#[test]
-fn a_node_that_flattens_its_mesh_is_brought_back_to_the_world() {
-    let mut nodes = tree();
-    nodes[1].transform =
-        Transform::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0, 1.0, 0.0] };
-    let stored = Scene { nodes, ..scene() };
-    let back = reloaded(&scene_to_glb(&stored).expect("small"));
-    for (a, b) in sorted_triangles(&stored).into_iter().zip(sorted_triangles(&back)) {
-        for (v, w) in a.vertices.iter().zip(&b.vertices) {
-            let [a, b] = [stored.vertices[*v as usize].position, back.vertices[*w as usize].position];
-            assert!((a - b).length() < 1e-5, "{a} and {b}");
-        }
-    }
 }
 
 #[test]
