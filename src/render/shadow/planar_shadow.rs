@@ -36,7 +36,7 @@ const CLEARANCE: f32 = 2e-5;
 pub struct PlanarSettings {
     /// How many planes receive shadows where none are chosen: the largest.
     pub num_receivers: usize,
-    /// Planes that are chosen to receive shadows, as [`plane_of`](super::flattening::plane_of) tells them.
+    /// Planes that are chosen to receive shadows, as [`plane_of`] tells them.
     pub receivers: Vec<Vec4>,
     /// Instances that are chosen to throw shadows; where there are none, all do.
     pub casters: BTreeSet<InstanceId>,
