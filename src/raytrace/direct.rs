@@ -35,21 +35,47 @@ impl PathTracer<'_> {
         punctual + self.reflected_of_emitters(surface, place, |_| 0.0, sampler)
     }
 
-    /// As [`Self::direct`], from one of the punctual lights, and without the share of the emissive triangles that falls to
-    /// the path.
-    pub(super) fn direct_beside_path(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+    /// As [`Self::direct`], from one of the punctual lights, and without the shares of light that fall to other ways to find
+    /// it, where `surface` was met by `ray` at `distance`.
+    pub(super) fn direct_beside_path(
+        &self,
+        surface: &Surface,
+        ray: &Ray,
+        distance: f32,
+        sampler: &mut Sampler,
+    ) -> Vec3 {
         let place = self.above(surface.position, surface.geometric);
         let mut radiance = Vec3::ZERO;
         if self.lights.has_punctual()
-            && let Some((arrival, probability)) = self.lights.choose_punctual(place, surface.normal, sampler)
+            && let Some((light, arrival, probability)) = self.lights.choose_punctual(place, surface.normal, sampler)
         {
-            radiance += self.reflected(surface, place, &arrival) / probability;
+            let unhidden = self.unhidden(surface, &arrival);
+            if unhidden != Vec3::ZERO {
+                let passing = self.passing(place, arrival.to_light, arrival.distance);
+                let share = match ray.chance {
+                    Chance::Among { density, .. } if !passing.has_pane => {
+                        let connected = self.beams.density(light, &arrival, surface, distance);
+                        power_heuristic(density * probability, connected)
+                    }
+                    _ => 1.0,
+                };
+                radiance += unhidden * passing.share * (share / probability);
+            }
         }
         radiance + self.reflected_of_emitters(surface, place, |direction| surface.diffuse_density(direction), sampler)
     }
 
     /// Radiance towards the viewer of a punctual light, with its highlight and its shadow.
     fn reflected(&self, surface: &Surface, place: Vec3, arrival: &Arrival) -> Vec3 {
+        let unhidden = self.unhidden(surface, arrival);
+        if unhidden == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        unhidden * self.passing(place, arrival.to_light, arrival.distance).share
+    }
+
+    /// Radiance towards the viewer of a punctual light, with its highlight, if nothing stood between.
+    pub(super) fn unhidden(&self, surface: &Surface, arrival: &Arrival) -> Vec3 {
         let cosine = surface.normal.dot(arrival.to_light);
         if cosine <= 0.0 || arrival.to_light.dot(surface.geometric) <= 0.0 {
             return Vec3::ZERO;
@@ -58,11 +84,7 @@ impl PathTracer<'_> {
         if let Some(specular) = &surface.specular {
             share += specular.highlight(surface.to_viewer, arrival.to_light);
         }
-        let unhidden = share * arrival.irradiance;
-        if unhidden == Vec3::ZERO {
-            return Vec3::ZERO;
-        }
-        unhidden * self.passing(place, arrival.to_light, arrival.distance).share
+        share * arrival.irradiance
     }
 
     /// Radiance towards the viewer of the emissive triangles, reflected diffusely.

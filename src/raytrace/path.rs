@@ -2,13 +2,17 @@
 //!
 //! At every diffuse surface light is sampled twice: at the lamps (next-event estimation) and by the path itself; each
 //! lamp's light is shared between the two by the power heuristic. Punctual lights can only be aimed at, also through
-//! panes; mirrors can only be followed: what a mirror throws of a punctual light is left out.
+//! panes, or followed to what is close to them; mirrors can only be followed: what a mirror throws of a punctual light is
+//! left out.
 //!
 //! Sources: Kajiya 1986, "The Rendering Equation"; Veach 1997, "Robust Monte Carlo Methods for Light Transport
 //! Simulation", chapter 9.
 
+use std::f32::consts::FRAC_1_PI;
+
 use glam::Vec3;
 
+use super::connection::Beams;
 use super::lights::Lights;
 use super::sampler::Sampler;
 use super::surface::{Surface, Way};
@@ -27,8 +31,9 @@ const MIN_BOUNCES: u32 = 4;
 pub(super) struct PathTracer<'a> {
     pub tracer: &'a Tracer<'a>,
     pub lights: Lights<'a>,
+    pub beams: Beams,
     max_bounces: u32,
-    has_specular: bool,
+    pub has_specular: bool,
     pub has_panes: bool,
     height: f32,
     has_blending: bool,
@@ -82,6 +87,7 @@ impl<'a> PathTracer<'a> {
         Self {
             tracer,
             lights: Lights::new(scene),
+            beams: Beams::new(scene),
             max_bounces,
             has_specular,
             has_panes: has_specular && scene.materials.iter().any(|material| material.transmission > 0.0),
@@ -152,7 +158,10 @@ impl<'a> PathTracer<'a> {
             if bounce == self.max_bounces {
                 break;
             }
-            light.reflected += throughput * self.direct_beside_path(&surface, sampler);
+            light.reflected += throughput * self.direct_beside_path(&surface, &ray, hit.distance, sampler);
+            if self.connects_at(bounce + 1) && surface.reflectance != Vec3::ZERO {
+                light.reflected += throughput * self.connected(&surface, sampler);
+            }
             let Some(scattered) = surface.scatter(sampler) else { break };
             throughput *= scattered.throughput;
             let chance = match scattered.way {
@@ -168,6 +177,19 @@ impl<'a> PathTracer<'a> {
             met = self.meet(&ray, sampler);
         }
         light
+    }
+
+    /// Light of punctual lights is looked for that the surface at a bounce would reflect.
+    pub(super) fn connects_at(&self, bounce: u32) -> bool {
+        !self.beams.is_empty() && bounce < self.max_bounces
+    }
+
+    /// Radiance towards the viewer that a surface reflects diffusely of the light that punctual lights throw on another.
+    fn connected(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+        let place = self.above(surface.position, surface.geometric);
+        let density = |direction| surface.diffuse_density(direction);
+        let irradiance = self.connected_irradiance(place, surface.normal, surface.geometric, density, sampler);
+        surface.reflectance * FRAC_1_PI * irradiance
     }
 
     /// The ray that goes on from a surface.
