@@ -98,8 +98,5 @@ fn alpha_at(first: u32, weights: vec3f) -> f32 {
     let colour = weights.x * cutouts[first].colour + weights.y * cutouts[first + 1u].colour
         + weights.z * cutouts[first + 2u].colour;
     let alpha = material.base_colour.a * colour.a;
-    if material.base_slot.is_used == 0u {
-        return alpha;
-    }
     return alpha * textureSampleLevel(base_texture, base_sampler, coordinate(material.base_slot, uv), 0.0).a;
 }

@@ -46,7 +46,7 @@ fn vertex_irradiance(index: u32) -> vec3f {
     // Surfaces that blend stay with the stored light.
     let direct = select(frame.direct, 0.0, LIT_BY_LIGHTS && ALPHA_MODE != ALPHA_BLEND);
     var sum = vec3f(0.0);
-    for (var group = 0u; group < frame.num_groups; group++) {
+    for (var group = 0u; group < choices.num_groups; group++) {
         let weight = group_weight(group);
         sum += weight * direct * stored_irradiance(2u * group, index);
         sum += weight * frame.indirect * stored_irradiance(2u * group + 1u, index);
@@ -65,9 +65,7 @@ fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> vec4f {
     let coverage = coverage(base.a);
     var radiance = shade(in, base.rgb, is_front, direct);
     // The back of a single-sided surface blocks light and sends none.
-    if !is_front && material.double_sided == 0u {
-        radiance = vec3f(0.0);
-    }
+    radiance = select(radiance, vec3f(0.0), !is_front & (material.double_sided == 0u));
     let stored = min(radiance * frame.pre_exposure, vec3f(LARGEST_HALF));
     // Blending is premultiplied; coverage of a mask acts through the samples instead.
     return vec4f(select(stored, stored * coverage, ALPHA_MODE == ALPHA_BLEND), coverage);
@@ -78,7 +76,7 @@ fn direct_radiance(direct: vec3f) -> vec3f {
     if !LIT_BY_LIGHTS || ALPHA_MODE == ALPHA_BLEND {
         return vec3f(0.0);
     }
-    return direct * (frame.direct / (PI * frame.pre_exposure));
+    return direct * (frame.direct * frame.live / (PI * frame.pre_exposure));
 }
 
 fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
@@ -86,7 +84,7 @@ fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
     let emission = emission(in.uv);
     let light = max(in.white_radiance, vec3f(0.0)) + direct_radiance(direct);
     let reflectance = select(base * (1.0 - metallic), base, frame.metal_as_diffuse == 1u);
-    switch frame.shading {
+    switch choices.shading {
         case SHADING_IRRADIANCE_ONLY: {
             return light;
         }

@@ -38,7 +38,7 @@ fn display_colour(hdr_premultiplied: vec4f) -> vec3f {
 }
 
 fn tone_mapped(colour: vec3f) -> vec3f {
-    if frame.tone_map == TONE_MAP_LINEAR {
+    if choices.tone_map == TONE_MAP_LINEAR {
         return saturate(colour);
     }
     return neutral(colour);

@@ -47,6 +47,12 @@ fn facts(scene: &Scene) -> Facts<'_> {
         is_recording: false,
         is_writing: false,
         num_rays: None,
+        num_points: None,
+        difference: None,
+        fault: None,
+        laps: &[],
+        has_device_clock: false,
+        num_light_samples: 0,
         sees: &|_| true,
         bookmarks: vec![1, 3],
     }

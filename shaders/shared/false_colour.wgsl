@@ -6,10 +6,8 @@ const LINE_WIDTH_PX: f32 = 1.3;
 fn place_on_scale(lux: f32) -> f32 {
     let low = frame.lux_scale.x;
     let high = frame.lux_scale.y;
-    if frame.lux_scale.z > 0.0 {
-        return log2(max(lux, 1e-6) / low) / log2(high / low);
-    }
-    return (lux - low) / (high - low);
+    let logarithmic = log2(max(lux, 1e-6) / low) / log2(high / low);
+    return select((lux - low) / (high - low), logarithmic, frame.lux_scale.z > 0.0);
 }
 
 // Linear display colour of an illuminance.

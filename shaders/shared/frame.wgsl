@@ -1,7 +1,8 @@
 // Bind group 0 of every pass: what one picture asks for. Written by src/render/frame.rs.
 //
-// A storage buffer, as all that branches depend on: for a uniform one lavapipe compiles the shader anew each time that it
-// is bound, and keeps what it has compiled.
+// No branch may depend on a uniform buffer: for the values of such uniforms lavapipe compiles the shader anew each time that
+// they are bound, and keeps what it has compiled. So choices lie in a storage buffer. Nothing of which derivatives are
+// taken may come from there: outside of triangles, where derivatives look, lavapipe loads zero.
 
 const MAX_GROUPS: u32 = 8u;
 
@@ -30,19 +31,24 @@ struct Frame {
     pre_exposure: f32,
     // Displayed = radiance x exposure; 0 asks for the metered one.
     exposure: f32,
-    tone_map: u32,
-    shading: u32,
     metal_as_diffuse: u32,
-    num_groups: u32,
     num_vertices: u32,
-    padding: u32,
+    // Factor on direct irradiance from the lights themselves: 1 / the number of batches that have been added up.
+    live: f32,
     // Homogeneous: the eye with w = 1, or the direction towards it with w = 0.
     eye: vec4f,
     // Ends of the scale of false colours in lux, whether it is logarithmic, and parts that lines cut it into.
     lux_scale: vec4f,
 }
 
-@group(0) @binding(0) var<storage, read> frame: Frame;
+struct Choices {
+    tone_map: u32,
+    shading: u32,
+    num_groups: u32,
+}
+
+@group(0) @binding(0) var<uniform> frame: Frame;
+@group(0) @binding(1) var<storage, read> choices: Choices;
 
 fn group_weight(group: u32) -> vec3f {
     return frame.group_weights[min(group, MAX_GROUPS - 1u)].rgb;

@@ -1,5 +1,5 @@
 // Bind group 2: a material's numbers and textures, and what they say of one point. Written by
-// src/gpu/material_buffers.rs.
+// src/gpu/material_buffers.rs. No branch depends on them, as shared/frame.wgsl explains.
 
 const NO_GROUP: u32 = 0xffffffffu;
 
@@ -11,12 +11,13 @@ override ALPHA_MODE: u32 = ALPHA_OPAQUE;
 // Masked edges are softened by coverage (needs several samples a pixel).
 override ALPHA_TO_COVERAGE: bool = false;
 
-// Where a texture is read: rows of the affine map from mesh coordinates, the coordinate set, and whether there is one.
+// Where a texture is read: rows of the affine map from mesh coordinates, and the coordinate set. Where a material has no
+// texture a white one is bound.
 struct Slot {
     u: vec3f,
     uv_set: u32,
     v: vec3f,
-    is_used: u32,
+    padding: u32,
 }
 
 struct Material {
@@ -33,7 +34,7 @@ struct Material {
     unlit: u32,
 }
 
-@group(2) @binding(0) var<storage, read> material: Material;
+@group(2) @binding(0) var<uniform> material: Material;
 @group(2) @binding(1) var base_texture: texture_2d<f32>;
 @group(2) @binding(2) var base_sampler: sampler;
 @group(2) @binding(3) var metallic_texture: texture_2d<f32>;
@@ -48,11 +49,8 @@ fn coordinate(slot: Slot, uv: vec4f) -> vec2f {
 
 // Colour and alpha where the mesh has `colour` and both coordinate sets `uv`.
 fn base_colour(colour: vec4f, uv: vec4f) -> vec4f {
-    let factor = material.base_colour * colour;
-    if material.base_slot.is_used == 0u {
-        return factor;
-    }
-    return factor * textureSample(base_texture, base_sampler, coordinate(material.base_slot, uv));
+    return material.base_colour * colour
+        * textureSample(base_texture, base_sampler, coordinate(material.base_slot, uv));
 }
 
 // Share of the pixel that the surface fills.
@@ -73,19 +71,11 @@ fn coverage(alpha: f32) -> f32 {
 }
 
 fn metallic(uv: vec4f) -> f32 {
-    if material.metallic_slot.is_used == 0u {
-        return material.metallic;
-    }
     return material.metallic * textureSample(metallic_texture, metallic_sampler, coordinate(material.metallic_slot, uv)).b;
 }
 
 fn emission(uv: vec4f) -> vec3f {
-    var emitted = material.emission;
-    if material.group != NO_GROUP {
-        emitted *= group_weight(material.group);
-    }
-    if material.emissive_slot.is_used == 0u {
-        return emitted;
-    }
-    return emitted * textureSample(emissive_texture, emissive_sampler, coordinate(material.emissive_slot, uv)).rgb;
+    let weight = select(group_weight(material.group), vec3f(1.0), material.group == NO_GROUP);
+    return material.emission * weight
+        * textureSample(emissive_texture, emissive_sampler, coordinate(material.emissive_slot, uv)).rgb;
 }

@@ -68,6 +68,7 @@ impl Gpu {
         }))
         .map_err(|error| GpuError::NoAdapter(error.to_string()))?;
         let wanted = wgpu::Features::TIMESTAMP_QUERY
+            | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS
             | wgpu::Features::DEPTH32FLOAT_STENCIL8
             // Sums of many light samples need more than half floats.
             | wgpu::Features::FLOAT32_BLENDABLE

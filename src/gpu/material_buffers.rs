@@ -32,7 +32,7 @@ struct SlotUniform {
     u: Vec3,
     uv_set: u32,
     v: Vec3,
-    is_used: u32,
+    padding: u32,
 }
 
 impl MaterialUniform {
@@ -65,7 +65,7 @@ impl SlotUniform {
             u: matrix.row(0).extend(shift.x),
             uv_set: slot.uv_set as u32,
             v: matrix.row(1).extend(shift.y),
-            is_used: 1,
+            padding: 0,
         }
     }
 }
@@ -81,7 +81,7 @@ pub fn material_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     };
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
     let uniform = wgpu::BindingType::Buffer {
-        ty: wgpu::BufferBindingType::Storage { read_only: true },
+        ty: wgpu::BufferBindingType::Uniform,
         has_dynamic_offset: false,
         min_binding_size: None,
     };
@@ -111,7 +111,7 @@ fn bind_group(
     let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some(&material.name),
         contents: bytemuck::bytes_of(&MaterialUniform::new(material)),
-        usage: wgpu::BufferUsages::STORAGE,
+        usage: wgpu::BufferUsages::UNIFORM,
     });
     let base = textures.bind(gpu, scene, material.base_colour_texture.as_ref(), Encoding::Srgb);
     let metallic = textures.bind(gpu, scene, material.metallic_roughness_texture.as_ref(), Encoding::Linear);
@@ -135,7 +135,7 @@ mod tests {
         macro_rules! offsets {
             ($uniform:ty: $($field:ident),+) => { vec![$(offset_of!($uniform, $field)),+, size_of::<$uniform>()] };
         }
-        let slot = offsets![SlotUniform: u, uv_set, v, is_used];
+        let slot = offsets![SlotUniform: u, uv_set, v, padding];
         assert_eq!(slot, struct_layout(&SURFACE, "Slot"));
         let material = offsets![
             MaterialUniform: base_colour, emission, metallic, base_slot, metallic_slot, emissive_slot, alpha_cutoff,

@@ -9,8 +9,10 @@ pub mod readback;
 pub mod scene_buffers;
 mod scene_part;
 pub mod shaders;
+pub mod stopwatch;
 pub mod targets;
 pub mod textures;
 
 pub use context::{Gpu, GpuError};
 pub use scene_buffers::SceneBuffers;
+pub use stopwatch::Stopwatch;

@@ -202,14 +202,6 @@ mod tests {
         }
     }
 
-    /// Lavapipe compiles a shader anew for the values of uniforms that its branches depend on; see ARCHITECTURE.md.
-    #[test]
-    fn no_branch_depends_on_a_uniform_buffer() {
-        for shader in ALL {
-            assert!(!shader.source().contains("var<uniform>"), "{}", shader.name);
-        }
-    }
-
     #[test]
     fn a_broken_shader_is_refused_with_its_place() {
         let message = validate("@fragment fn main() -> u32 { return 1.5; }").unwrap_err();

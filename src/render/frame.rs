@@ -12,7 +12,7 @@ use super::tonemap::ToneMapPass;
 use super::{Look, View};
 use crate::gpu::readback::read_buffer;
 use crate::gpu::targets::Targets;
-use crate::gpu::{Gpu, GpuError, SceneBuffers};
+use crate::gpu::{Gpu, GpuError, SceneBuffers, Stopwatch};
 
 /// Draws pictures of one output format.
 pub struct Renderer {
@@ -23,6 +23,9 @@ pub struct Renderer {
     /// Made when the first debug view is drawn.
     debug: Option<DebugPass>,
     meter: Meter,
+    /// The meter of another renderer that sets the exposure here.
+    followed: Option<wgpu::Buffer>,
+    watch: Option<Arc<Stopwatch>>,
     tone_map: ToneMapPass,
     output_format: wgpu::TextureFormat,
     samples: u32,
@@ -62,6 +65,8 @@ impl Renderer {
             shadows: None,
             debug: None,
             meter: Meter::new(gpu, &frame_layout),
+            followed: None,
+            watch: None,
             tone_map: ToneMapPass::new(gpu, &frame_layout, output_format, samples),
             frame_layout,
             output_format,
@@ -83,6 +88,16 @@ impl Renderer {
         self.shadows = shadows;
     }
 
+    /// Pictures without a fixed exposure take that which another renderer has metered last.
+    pub fn follow_exposure(&mut self, other: &Self) {
+        self.followed = Some(other.meter.exposure().clone());
+    }
+
+    /// Times the passes of the pictures that are drawn from now on.
+    pub fn time(&mut self, watch: Option<Arc<Stopwatch>>) {
+        self.watch = watch;
+    }
+
     /// Records a picture of `scene` into the whole of `target`, which is `size` pixels wide and high.
     #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, target, size) and what (scene, view, look)")]
     pub fn draw(
@@ -101,7 +116,16 @@ impl Renderer {
         };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
 
-        let subject = self.shadows.as_ref().map(|shadows| Subject { frame: &frame, scene, shadows, view, look });
+        let subject = self.shadows.as_ref().map(|shadows| Subject {
+            frame: &frame,
+            scene,
+            shadows,
+            view,
+            look,
+            watch: self.watch.as_deref(),
+        });
+        let lap =
+            |encoder: &mut wgpu::CommandEncoder, name| self.watch.iter().for_each(|watch| watch.lap(encoder, name));
         if let (Some(settings), Some(subject)) = (&look.shadows, subject) {
             let lit = self.lit.get_or_insert_with(|| LitPasses::new(gpu, &self.frame_layout, self.samples));
             // Direct irradiance from the lights themselves, each in its shadows.
@@ -112,12 +136,16 @@ impl Renderer {
             // Radiance from every visible point towards the eye, several samples a pixel, and their mean.
             self.surface.draw(gpu, encoder, &targets, &frame, scene, look, None);
         }
+        lap(encoder, "surfaces");
         // The exposure that suits this picture, unless one is given.
-        if look.fixed_exposure().is_none() {
+        if look.fixed_exposure().is_none() && self.followed.is_none() {
             self.meter.draw(gpu, encoder, &targets, &frame);
+            lap(encoder, "light meter");
         }
         // Exposure, tone curve, sRGB, dither.
-        self.tone_map.draw(gpu, encoder, &targets, &frame, self.meter.exposure(), target);
+        let exposure = self.followed.as_ref().unwrap_or(self.meter.exposure());
+        self.tone_map.draw(gpu, encoder, &targets, &frame, exposure, target);
+        lap(encoder, "tone map");
 
         // What shadows work with.
         if let (Some(debug), Some(subject)) = (look.shadow_debug, subject) {

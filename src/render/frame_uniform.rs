@@ -21,12 +21,10 @@ struct FrameUniform {
     indirect: f32,
     pre_exposure: f32,
     exposure: f32,
-    tone_map: u32,
-    shading: u32,
     metal_as_diffuse: u32,
-    num_groups: u32,
     num_vertices: u32,
-    padding: u32,
+    live: f32,
+    padding: [u32; 3],
     eye: Vec4,
     lux_scale: Vec4,
 }
@@ -43,6 +41,28 @@ impl FrameUniform {
             indirect: look.indirect,
             pre_exposure: scene.pre_exposure,
             exposure: look.fixed_exposure().unwrap_or(0.0),
+            metal_as_diffuse: u32::from(look.metal_as_diffuse),
+            num_vertices: scene.num_vertices() as u32,
+            live: 1.0 / (look.shadows.as_ref().and_then(|shadows| shadows.batch).unwrap_or(0) + 1) as f32,
+            padding: [0; 3],
+            eye: view.eye(),
+            lux_scale: look.lux_scale.uniform(),
+        }
+    }
+}
+
+/// `Choices` of shaders/shared/frame.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Pod, Zeroable)]
+struct ChoicesStorage {
+    tone_map: u32,
+    shading: u32,
+    num_groups: u32,
+}
+
+impl ChoicesStorage {
+    fn new(scene: &SceneBuffers, look: &Look) -> Self {
+        Self {
             tone_map: match look.tone_map_in_force() {
                 ToneMap::Neutral => 0,
                 ToneMap::Linear => 1,
@@ -54,30 +74,25 @@ impl FrameUniform {
                 Shading::Normals => 3,
                 Shading::FalseColour => 4,
             },
-            metal_as_diffuse: u32::from(look.metal_as_diffuse),
             num_groups: scene.num_groups() as u32,
-            num_vertices: scene.num_vertices() as u32,
-            padding: 0,
-            eye: view.eye(),
-            lux_scale: look.lux_scale.uniform(),
         }
     }
 }
 
 /// Layout of bind group 0.
 pub fn frame_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
+        binding,
+        visibility: wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset: false, min_binding_size: None },
+        count: None,
+    };
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("frame"),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT | wgpu::ShaderStages::COMPUTE,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        }],
+        entries: &[
+            entry(0, wgpu::BufferBindingType::Uniform),
+            entry(1, wgpu::BufferBindingType::Storage { read_only: true }),
+        ],
     })
 }
 
@@ -89,15 +104,18 @@ pub fn frame_bind_group(
     view: &View,
     look: &Look,
 ) -> wgpu::BindGroup {
-    let uniform = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-        label: Some("frame"),
-        contents: bytemuck::bytes_of(&FrameUniform::new(scene, view, look)),
-        usage: wgpu::BufferUsages::STORAGE,
-    });
+    let buffer = |contents: &[u8], usage| {
+        gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("frame"), contents, usage })
+    };
+    let uniform = buffer(bytemuck::bytes_of(&FrameUniform::new(scene, view, look)), wgpu::BufferUsages::UNIFORM);
+    let choices = buffer(bytemuck::bytes_of(&ChoicesStorage::new(scene, look)), wgpu::BufferUsages::STORAGE);
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("frame"),
         layout,
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() }],
+        entries: &[
+            wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
+            wgpu::BindGroupEntry { binding: 1, resource: choices.as_entire_binding() },
+        ],
     })
 }
 
@@ -112,6 +130,7 @@ mod tests {
         macro_rules! offsets {
             ($($field:ident),+) => { vec![$(offset_of!(FrameUniform, $field)),+, size_of::<FrameUniform>()] };
         }
+        // The shader leaves the gap to the compiler.
         let written = offsets![
             projection_from_world,
             group_weights,
@@ -121,12 +140,9 @@ mod tests {
             indirect,
             pre_exposure,
             exposure,
-            tone_map,
-            shading,
             metal_as_diffuse,
-            num_groups,
             num_vertices,
-            padding,
+            live,
             eye,
             lux_scale
         ];

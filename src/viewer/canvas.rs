@@ -5,14 +5,12 @@
 
 use std::sync::Arc;
 
-use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
-
+use super::difference::Differ;
+use super::painter::{Painter, texture, view_of};
 use super::still::Exposed;
-use crate::gpu::{Gpu, SceneBuffers};
-use crate::render::{Look, Overlay, OverlayPass, Renderer, ShadowScene, View};
-
-/// Samples a pixel of a fine picture.
-pub const SAMPLES: u32 = 4;
+use crate::gpu::stopwatch::Laps;
+use crate::gpu::{Gpu, SceneBuffers, Stopwatch};
+use crate::render::{Look, Overlay, OverlayPass, ShadowScene, ShadowSettings, View};
 
 /// How finely a picture is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,10 +38,31 @@ pub struct Sight {
     pub view: View,
     /// How it is shown.
     pub look: Look,
+    /// With which shadows those of the look are compared, and how.
+    pub rival: Option<Rival>,
     /// What is drawn over it.
     pub overlay: Option<Arc<Overlay>>,
     /// Pixels across and down.
     pub size: [u32; 2],
+}
+
+/// Shadows that are compared with those of the look.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rival {
+    /// How they are found.
+    pub settings: ShadowSettings,
+    /// How they are compared.
+    pub comparison: Comparison,
+}
+
+/// How shadows are compared.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Comparison {
+    /// Both are shown, left and right of a divider.
+    #[default]
+    Split,
+    /// Where they decide differently is shown as a heat map.
+    Difference,
 }
 
 /// What has changed since the last picture.
@@ -60,42 +79,41 @@ pub enum Change {
 /// The last picture and what draws the next.
 pub struct Canvas {
     format: wgpu::TextureFormat,
-    fine: Renderer,
-    quick: Option<Quick>,
+    painter: Painter,
+    /// Draws what the look is compared with; made when that is first asked for.
+    rival: Option<Painter>,
+    differ: Option<Differ>,
     overlay: OverlayPass,
     picture: Option<Picture>,
-}
-
-/// Where the processor draws.
-struct Quick {
-    renderer: Renderer,
-    /// Enlarges sketches.
-    blitter: TextureBlitter,
-    /// The last sketch's target and its size.
-    target: Option<(wgpu::TextureView, [u32; 2])>,
+    watch: Option<Arc<Stopwatch>>,
+    laps: Laps,
 }
 
 struct Picture {
     sight: Sight,
     detail: Detail,
+    /// Number of the last batch of light samples that was added.
+    batch: Option<u32>,
     texture: wgpu::Texture,
+    /// The same with the shadows of the rival.
+    beside: Option<wgpu::Texture>,
+    /// Share of pixels in which both decide differently, where that is shown.
+    difference: Option<f32>,
 }
 
 impl Canvas {
     /// A canvas for targets of `format`.
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        let quick = || Quick {
-            renderer: Renderer::new(gpu, format, 1),
-            blitter: TextureBlitterBuilder::new(&gpu.device, format).sample_type(wgpu::FilterMode::Linear).build(),
-            target: None,
-        };
         Self {
             format,
-            fine: Renderer::new(gpu, format, SAMPLES),
-            quick: gpu.is_software().then(quick),
+            painter: Painter::new(gpu, format),
+            rival: None,
+            differ: None,
             overlay: OverlayPass::new(gpu, format),
             picture: None,
+            watch: None,
+            laps: Laps::default(),
         }
     }
 
@@ -106,6 +124,7 @@ impl Canvas {
         let is_same_sight = Arc::ptr_eq(&last.scene, &sight.scene)
             && last.view == sight.view
             && last.look == sight.look
+            && last.rival == sight.rival
             && last.overlay.as_ref().map(Arc::as_ptr) == sight.overlay.as_ref().map(Arc::as_ptr)
             && last.size == sight.size;
         match (is_same_sight, last.light == sight.light) {
@@ -121,41 +140,95 @@ impl Canvas {
         self.picture.as_ref().map(|picture| picture.detail)
     }
 
+    /// Number of the last batch of light samples that was added to the picture.
+    #[must_use]
+    pub fn batch(&self) -> Option<u32> {
+        self.picture.as_ref().and_then(|picture| picture.batch)
+    }
+
+    /// Share of pixels in which the compared shadows differ, where the picture shows that.
+    #[must_use]
+    pub fn difference(&self) -> Option<f32> {
+        self.picture.as_ref().and_then(|picture| picture.difference)
+    }
+
     /// The processor draws, and details cost time.
     #[must_use]
     pub fn is_slow(&self) -> bool {
-        self.quick.is_some()
+        self.painter.is_slow()
     }
 
     /// The exposure that was metered for the last picture, stops; none where none was metered.
     #[must_use]
     pub fn metered_ev(&self, gpu: &Gpu) -> Option<f32> {
-        let renderer = match (&self.quick, self.detail()?) {
-            (Some(quick), Detail::Sketch | Detail::Plain) => &quick.renderer,
-            _ => &self.fine,
-        };
-        // A lost device is told by the next frame.
-        renderer.metered_ev(gpu).ok().flatten()
+        self.painter.metered_ev(gpu, self.detail()?)
     }
 
-    /// Draws a new picture.
-    pub fn draw(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sight: Sight, detail: Detail) {
-        let texture = match self.picture.take() {
-            Some(last) if last.sight.size == sight.size => last.texture,
-            _ => texture(gpu, sight.size, self.format),
-        };
-        let target = view_of(&texture);
-        let Sight { scene, view, look, size, .. } = &sight;
-        self.cast_shadows(&sight.shadows);
-        match (&mut self.quick, detail) {
-            (Some(quick), Detail::Sketch) => quick.sketch(gpu, encoder, &target, self.format, &sight),
-            (Some(quick), Detail::Plain) => quick.renderer.draw(gpu, encoder, &target, *size, scene, view, look),
-            _ => self.fine.draw(gpu, encoder, &target, *size, scene, view, look),
+    /// Draws a new picture; with a batch of light samples past the first, that is added to the last.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        sight: Sight,
+        detail: Detail,
+        batch: Option<u32>,
+    ) {
+        let last = self.picture.take().filter(|last| last.sight.size == sight.size);
+        let (texture_of_last, beside_of_last) = last.map_or((None, None), |last| (Some(last.texture), last.beside));
+        let format = self.format;
+        let new_texture = || texture(gpu, sight.size, format);
+        let (shown, mut beside, mut difference) = (texture_of_last.unwrap_or_else(new_texture), None, None);
+        if let Some(watch) = &self.watch {
+            watch.begin(encoder);
         }
-        if let Some(overlay) = &sight.overlay {
-            self.overlay.draw(gpu, encoder, &target, *size, scene, view, look, overlay);
+        match &sight.rival {
+            Some(Rival { settings, comparison: Comparison::Difference }) => {
+                difference =
+                    self.differ.get_or_insert_with(|| Differ::new(gpu)).draw(gpu, &shown, &sight, settings, detail);
+            }
+            rival => {
+                self.painter.draw(gpu, encoder, &view_of(&shown), &sight, &in_batch(&sight.look, batch), detail);
+                self.draw_overlay(gpu, encoder, &shown, &sight);
+                if let Some(Rival { settings, .. }) = rival {
+                    let texture = beside_of_last.unwrap_or_else(new_texture);
+                    let look = Look { shadows: Some(settings.clone()), ..sight.look.clone() };
+                    self.painter_of_rival(gpu).draw(
+                        gpu,
+                        encoder,
+                        &view_of(&texture),
+                        &sight,
+                        &in_batch(&look, batch),
+                        detail,
+                    );
+                    self.draw_overlay(gpu, encoder, &texture, &sight);
+                    beside = Some(texture);
+                }
+            }
         }
-        self.picture = Some(Picture { sight, detail, texture });
+        if let Some(watch) = &self.watch {
+            watch.end(encoder);
+        }
+        self.picture = Some(Picture { sight, detail, batch, texture: shown, beside, difference });
+    }
+
+    fn painter_of_rival(&mut self, gpu: &Gpu) -> &mut Painter {
+        self.rival.get_or_insert_with(|| {
+            let mut rival = Painter::new(gpu, self.format);
+            rival.follow_exposure(&self.painter);
+            rival
+        })
+    }
+
+    fn draw_overlay(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        Sight { scene, view, look, size, overlay, .. }: &Sight,
+    ) {
+        if let Some(overlay) = overlay {
+            self.overlay.draw(gpu, encoder, &view_of(target), *size, scene, view, look, overlay);
+        }
     }
 
     /// The next picture is drawn whatever has changed.
@@ -163,84 +236,74 @@ impl Canvas {
         self.picture = None;
     }
 
+    /// Times passes from now on, or no longer.
+    pub fn time(&mut self, gpu: &Gpu, is_wanted: bool) {
+        if is_wanted != self.watch.is_some() {
+            self.watch = is_wanted.then(|| Arc::new(Stopwatch::new(gpu)));
+            self.laps = Laps::default();
+            self.painter.time(self.watch.as_ref());
+        }
+    }
+
+    /// Reads the times of the picture that was submitted last.
+    pub fn read_watch(&mut self, gpu: &Gpu) {
+        if let Some(watch) = &self.watch {
+            // A lost device is told by the next frame.
+            self.laps = watch.read(gpu).unwrap_or_default();
+        }
+    }
+
+    /// What passes have taken, where they are timed.
+    #[must_use]
+    pub fn laps(&self) -> &Laps {
+        &self.laps
+    }
+
     /// Lays a traced picture over the last one; false where it has another size by now.
     pub fn lay(&mut self, gpu: &Gpu, exposed: &Exposed) -> bool {
         let Some(picture) = self.picture.as_mut().filter(|picture| picture.sight.size == exposed.size) else {
             return false;
         };
-        let is_bgra = matches!(self.format, wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Bgra8UnormSrgb);
-        let bytes: Vec<u8> = if is_bgra {
-            exposed.display.as_chunks::<4>().0.iter().flat_map(|&[r, g, b, a]| [b, g, r, a]).collect()
-        } else {
-            exposed.display.clone()
-        };
-        let [width, height] = exposed.size;
-        let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
-        gpu.queue.write_texture(
-            picture.texture.as_image_copy(),
-            &bytes,
-            layout,
-            wgpu::Extent3d { width, height, depth_or_array_layers: 1 },
-        );
+        write(gpu, &picture.texture, &exposed.display);
         picture.detail = Detail::Traced;
         true
     }
 
-    fn cast_shadows(&mut self, shadows: &Arc<ShadowScene>) {
-        let quick = self.quick.as_mut().map(|quick| &mut quick.renderer);
-        for renderer in [Some(&mut self.fine), quick].into_iter().flatten() {
-            renderer.cast_shadows(Some(Arc::clone(shadows)));
+    /// Lays the last picture into the top left corner of `target`; what is right of `divider`, a share of the width,
+    /// shows the rival's shadows where there is one.
+    pub fn paste(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::Texture, divider: f32) {
+        let Some(Picture { texture, beside, .. }) = &self.picture else { return };
+        let [width, height] = [texture.width().min(target.width()), texture.height().min(target.height())];
+        let column = if beside.is_some() { ((divider * width as f32) as u32).min(width) } else { width };
+        for (source, from, to) in [(Some(texture), 0, column), (beside.as_ref(), column, width)] {
+            let Some(source) = source.filter(|_| from < to) else { continue };
+            let at = |texture| wgpu::TexelCopyTextureInfo {
+                origin: wgpu::Origin3d { x: from, y: 0, z: 0 },
+                ..wgpu::Texture::as_image_copy(texture)
+            };
+            let size = wgpu::Extent3d { width: to - from, height, depth_or_array_layers: 1 };
+            encoder.copy_texture_to_texture(at(source), at(target), size);
         }
     }
-
-    /// Lays the last picture into the top left corner of `target`.
-    pub fn paste(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::Texture) {
-        let Some(Picture { texture, .. }) = &self.picture else { return };
-        let size = wgpu::Extent3d {
-            width: texture.width().min(target.width()),
-            height: texture.height().min(target.height()),
-            depth_or_array_layers: 1,
-        };
-        encoder.copy_texture_to_texture(texture.as_image_copy(), target.as_image_copy(), size);
-    }
 }
 
-impl Quick {
-    /// Draws half as wide and high, and enlarges into `target`.
-    fn sketch(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::TextureView,
-        format: wgpu::TextureFormat,
-        sight: &Sight,
-    ) {
-        let size = sight.size.map(|side| side.div_ceil(2));
-        let (small, _) = match self.target.take() {
-            Some(last) if last.1 == size => self.target.insert(last),
-            _ => self.target.insert((view_of(&texture(gpu, size, format)), size)),
-        };
-        self.renderer.draw(gpu, encoder, small, size, &sight.scene, &sight.view, &sight.look);
-        self.blitter.copy(&gpu.device, encoder, small, target);
-    }
+fn in_batch(look: &Look, batch: Option<u32>) -> Look {
+    let shadows = look.shadows.clone().map(|shadows| ShadowSettings { batch, ..shadows });
+    Look { shadows, ..look.clone() }
 }
 
-fn texture(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("picture"),
-        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT
-            | wgpu::TextureUsages::TEXTURE_BINDING
-            | wgpu::TextureUsages::COPY_SRC
-            | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    })
-}
-
-fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
-    texture.create_view(&wgpu::TextureViewDescriptor::default())
+/// Writes a whole picture of RGBA bytes into a texture.
+pub fn write(gpu: &Gpu, texture: &wgpu::Texture, display: &[u8]) {
+    let is_bgra = matches!(texture.format(), wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Bgra8UnormSrgb);
+    let swapped: Vec<u8>;
+    let bytes = if is_bgra {
+        swapped = display.as_chunks::<4>().0.iter().flat_map(|&[r, g, b, a]| [b, g, r, a]).collect();
+        &swapped
+    } else {
+        display
+    };
+    let (width, height) = (texture.width(), texture.height());
+    let layout = wgpu::TexelCopyBufferLayout { offset: 0, bytes_per_row: Some(4 * width), rows_per_image: None };
+    let size = wgpu::Extent3d { width, height, depth_or_array_layers: 1 };
+    gpu.queue.write_texture(texture.as_image_copy(), bytes, layout, size);
 }

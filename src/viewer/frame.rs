@@ -91,16 +91,24 @@ impl Walkthrough {
             is_recording: self.errands.is_out(Kind::Record),
             is_writing: self.errands.is_out(Kind::Write),
             num_rays: self.inquiry.num_rays,
+            num_points: self.num_points(),
+            difference: self.screen.canvas.difference(),
+            fault: self.inquiry.fault.as_deref(),
+            laps: &self.screen.canvas.laps().passes,
+            has_device_clock: self.screen.canvas.laps().is_of_device,
+            num_light_samples: self.inquiry.num_light_samples,
             bookmarks: self.panels.memory.bookmarks_of(&self.session.name()),
             sees: &sees,
         };
         let (mut commands, mut free) = (Vec::new(), egui::Rect::ZERO);
-        let shapes = self.gui.run(&self.window, |ui| (commands, free) = self.panels.ui(ui, &facts));
+        let mut shapes = self.gui.run(&self.window, |ui| (commands, free) = self.panels.ui(ui, &facts));
+        shapes.divider = self.panels.light.divider;
         self.picture_size = pixels(free, shapes.pixels_per_point, self.screen.size());
         (shapes, commands)
     }
 
     fn show(&mut self, panels: PanelShapes) -> Shown {
+        self.screen.canvas.time(&self.screen.gpu, self.panels.shows_times());
         let picture = self.next_picture();
         self.screen.show(&self.window, picture, panels)
     }

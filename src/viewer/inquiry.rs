@@ -13,6 +13,7 @@ use super::replay::Recording;
 use super::still;
 use super::walkthrough::Walkthrough;
 use crate::baked;
+use crate::render::shadow::DebugView;
 use crate::scene::Camera;
 
 /// What is known of the open scene beyond its picture.
@@ -30,6 +31,10 @@ pub struct Inquiry {
     pub recording: Option<Arc<Recording>>,
     /// Rays a pixel of the traced view; none where it is drawn.
     pub num_rays: Option<u32>,
+    /// What is known to be wrong with the shadows of the last picture.
+    pub fault: Option<String>,
+    /// Points and directions from which its direct light comes.
+    pub num_light_samples: usize,
 }
 
 impl Walkthrough {
@@ -59,12 +64,18 @@ impl Walkthrough {
     pub(super) fn click(&mut self, pixel: [f64; 2]) {
         let Some(pick) = self.picked(pixel) else { return };
         let Some(place) = &self.session.place else { return };
+        let instance = place.scene.triangles[pick.triangle.index()].instance;
         if self.panels.tool == Tool::Choose {
-            let instance = place.scene.triangles[pick.triangle.index()].instance;
             self.panels.selection.chosen = Some(instance);
             let name = place.scene.instances.get(instance.index()).map_or("", |instance| &instance.name);
             self.panels.notice = Some(Notice::new(format!("Selected: {name}")));
             return;
+        }
+        let planar = &mut self.panels.light.shadows.planar;
+        match self.panels.tool {
+            Tool::Receiver => return planar.toggle_receiver(&place.scene, pick.triangle),
+            Tool::Caster => return planar.toggle_caster(instance),
+            _ => {}
         }
         let Some(solved) = place.solved.clone() else {
             self.panels.notice = Some(Notice::new("Wait for the light, then measure"));
@@ -96,7 +107,7 @@ impl Walkthrough {
                     }
                 })
             }
-            Tool::Look | Tool::Choose => Ok(()),
+            Tool::Look | Tool::Choose | Tool::Receiver | Tool::Caster => Ok(()),
         };
         self.report(sent);
     }
@@ -162,7 +173,12 @@ impl Walkthrough {
             Tool::Meter | Tool::Grid => (Tab::Meter, "Lux meter"),
             Tool::Sight => (Tab::Meter, "View from here"),
             Tool::Choose => (Tab::Place, "Scene"),
-            Tool::Look => return,
+            Tool::Receiver => {
+                // One sees what is chosen.
+                self.panels.light.debug = Some(DebugView::Receivers);
+                return;
+            }
+            Tool::Caster | Tool::Look => return,
         };
         self.panels.memory.tab = tab;
         self.panels.memory.sections.insert(section.to_owned(), true);

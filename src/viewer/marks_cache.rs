@@ -1,5 +1,6 @@
 //! Keeps the marks on the device until something about them changes.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::marks::{Marks, Wire};
@@ -13,8 +14,8 @@ use crate::render::Overlay;
 pub struct Wanted<'a> {
     /// Lines.
     pub wire: Wire,
-    /// A chosen instance.
-    pub chosen: Option<InstanceId>,
+    /// Chosen instances.
+    pub chosen: BTreeSet<InstanceId>,
     /// Whose form factors are shown.
     pub sight: Option<&'a Arc<PatchSight>>,
     /// Who shoots.
@@ -22,7 +23,7 @@ pub struct Wanted<'a> {
 }
 
 /// What marks were made from: addresses stand for what they point to.
-type Key = (usize, usize, Wire, Option<InstanceId>, usize, Option<PatchId>);
+type Key = (usize, usize, Wire, BTreeSet<InstanceId>, usize, Option<PatchId>);
 
 /// The last marks.
 #[derive(Default)]
@@ -39,7 +40,7 @@ impl MarksCache {
             Arc::as_ptr(scene) as usize,
             place.solved.as_ref().map_or(0, address),
             wanted.wire,
-            wanted.chosen,
+            wanted.chosen.clone(),
             wanted.sight.map_or(0, |sight| Arc::as_ptr(sight) as usize),
             wanted.shooter,
         );
@@ -64,9 +65,7 @@ fn marks(place: &Place, wanted: &Wanted<'_>) -> Marks {
     if let (Some(solved), Some(shooter)) = (solved, wanted.shooter) {
         marks.shooter(solved, shooter);
     }
-    if let Some(chosen) = wanted.chosen {
-        marks.chosen(scene, chosen);
-    }
+    wanted.chosen.iter().for_each(|&chosen| marks.chosen(scene, chosen));
     marks.wire(wanted.wire, scene, solved);
     marks
 }

@@ -8,6 +8,7 @@
 
 pub mod app;
 pub mod camera;
+pub mod canvas;
 pub mod collider;
 pub mod errand;
 pub mod input;
@@ -31,15 +32,17 @@ pub mod walk;
 pub mod walkthrough;
 pub mod worker;
 
-mod canvas;
 mod commands;
 mod default_sky;
+mod difference;
 mod file_watch;
 mod frame;
 mod gui;
 mod marks_cache;
+mod painter;
 mod picture;
 mod screen;
+mod shadow_notes;
 
 use std::path::PathBuf;
 

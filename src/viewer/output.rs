@@ -6,7 +6,7 @@ use std::sync::Arc;
 use anyhow::Context;
 
 use super::camera::Eye;
-use super::canvas::SAMPLES;
+use super::painter::SAMPLES;
 use super::solved::Solved;
 use crate::base::progress::Progress;
 use crate::gpu::Gpu;

@@ -23,6 +23,16 @@ pub struct Screen {
     painter: egui_wgpu::Renderer,
 }
 
+/// A picture to draw.
+pub struct NewPicture {
+    /// What it shows.
+    pub sight: Sight,
+    /// How finely.
+    pub detail: Detail,
+    /// Which batch of light samples it draws, where they come in batches.
+    pub batch: Option<u32>,
+}
+
 /// Panels to draw.
 pub struct PanelShapes {
     /// Triangles.
@@ -31,6 +41,8 @@ pub struct PanelShapes {
     pub textures: egui::TexturesDelta,
     /// Pixels of a point.
     pub pixels_per_point: f32,
+    /// Where the divider of a split screen is, as a share of the picture's width.
+    pub divider: f32,
 }
 
 /// What became of a frame.
@@ -79,7 +91,7 @@ impl Screen {
     }
 
     /// Draws a frame and shows it: a new picture where one is given, else the last one, and the panels on top.
-    pub fn show(&mut self, window: &Window, picture: Option<(Sight, Detail)>, mut panels: PanelShapes) -> Shown {
+    pub fn show(&mut self, window: &Window, picture: Option<NewPicture>, mut panels: PanelShapes) -> Shown {
         // Even where the frame fails: panels say only once what is new and what is gone.
         self.update_textures(&panels.textures);
         let shown = self.show_updated(window, picture, &panels);
@@ -90,7 +102,7 @@ impl Screen {
         shown
     }
 
-    fn show_updated(&mut self, window: &Window, picture: Option<(Sight, Detail)>, panels: &PanelShapes) -> Shown {
+    fn show_updated(&mut self, window: &Window, picture: Option<NewPicture>, panels: &PanelShapes) -> Shown {
         let frame = match self.surface.get_current_texture() {
             wgpu::CurrentSurfaceTexture::Success(frame) | wgpu::CurrentSurfaceTexture::Suboptimal(frame) => frame,
             wgpu::CurrentSurfaceTexture::Timeout | wgpu::CurrentSurfaceTexture::Occluded => return Shown::No,
@@ -101,7 +113,11 @@ impl Screen {
                 return Shown::Retry;
             }
         };
+        let is_new = picture.is_some();
         self.submit(&frame.texture, picture, panels);
+        if is_new {
+            self.canvas.read_watch(&self.gpu);
+        }
         if self.gpu.is_software() {
             // The cores draw now: the bake shall not take them away before the frame is whole.
             let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
@@ -111,15 +127,15 @@ impl Screen {
         Shown::Yes
     }
 
-    fn submit(&mut self, target: &wgpu::Texture, picture: Option<(Sight, Detail)>, panels: &PanelShapes) {
+    fn submit(&mut self, target: &wgpu::Texture, picture: Option<NewPicture>, panels: &PanelShapes) {
         let Gpu { device, queue, .. } = &*self.gpu;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("screen") });
-        if let Some((sight, detail)) = picture {
-            self.canvas.draw(&self.gpu, &mut encoder, sight, detail);
+        if let Some(NewPicture { sight, detail, batch }) = picture {
+            self.canvas.draw(&self.gpu, &mut encoder, sight, detail, batch);
         }
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         drop(begin_pass(&mut encoder, &view, wgpu::LoadOp::Clear(EMPTY)));
-        self.canvas.paste(&mut encoder, target);
+        self.canvas.paste(&mut encoder, target, panels.divider);
         let screen =
             egui_wgpu::ScreenDescriptor { size_in_pixels: self.size(), pixels_per_point: panels.pixels_per_point };
         let mut uploads = self.painter.update_buffers(device, queue, &mut encoder, &panels.primitives, &screen);

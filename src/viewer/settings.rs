@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use super::canvas::{Comparison, Rival};
+use crate::render::shadow::{DebugView, ShadowDebug};
 use crate::render::{Exposure, Look, LuxScale, Shading, ShadowSettings, ShadowTechnique, ToneMap};
 use crate::scene::Scene;
 
@@ -42,6 +44,16 @@ pub struct LightSettings {
     pub is_real_time: bool,
     /// How.
     pub shadows: ShadowSettings,
+    /// The technique that they are compared with, without its faults.
+    pub rival: Option<ShadowTechnique>,
+    /// How they are compared.
+    pub comparison: Comparison,
+    /// Where the divider of a split screen is, as a share of the picture's width.
+    pub divider: f32,
+    /// What shadows work with is shown.
+    pub debug: Option<DebugView>,
+    /// Of which light sample.
+    pub debug_light: usize,
     /// A dial for each light group `[g]`.
     pub groups: Vec<GroupDial>,
 }
@@ -73,6 +85,11 @@ impl Default for LightSettings {
             see_through_backs: look.cull_back,
             is_real_time: false,
             shadows: ShadowSettings::new(ShadowTechnique::VolumeDepthFail),
+            rival: None,
+            comparison: Comparison::default(),
+            divider: 0.5,
+            debug: None,
+            debug_light: 0,
             groups: Vec::new(),
         }
     }
@@ -110,6 +127,15 @@ impl LightSettings {
         };
     }
 
+    /// What the picture is compared with: the same lamps in the shadows of another technique.
+    #[must_use]
+    pub fn rival(&self) -> Option<Rival> {
+        let technique = self.rival.filter(|_| self.is_real_time)?;
+        let ShadowSettings { light_samples, light_radius, .. } = self.shadows;
+        let settings = ShadowSettings { light_samples, light_radius, ..ShadowSettings::new(technique) };
+        Some(Rival { settings, comparison: self.comparison })
+    }
+
     /// The look of the picture; before the first light is there, everything is shown in an even work light.
     #[must_use]
     pub fn look(&self, is_lit: bool) -> Look {
@@ -121,6 +147,10 @@ impl LightSettings {
             direct: f32::from(self.direct),
             indirect: f32::from(self.indirect),
             shadows: self.is_real_time.then(|| self.shadows.clone()),
+            shadow_debug: self
+                .debug
+                .filter(|_| self.is_real_time)
+                .map(|view| ShadowDebug { view, light: self.debug_light }),
             ambient: if is_lit { Vec3::ZERO } else { WORK_LIGHT },
             group_weights: self.groups.iter().map(GroupDial::weight).collect(),
             cull_back: self.see_through_backs,

@@ -174,11 +174,11 @@ impl Walkthrough {
             WindowEvent::DroppedFile(path) => self.open(path.clone()),
             WindowEvent::KeyboardInput { event, .. } if self.is_quit(event) => return true,
             WindowEvent::KeyboardInput { event, .. } if !self.gui.has_keyboard() => self.on_key(event),
-            WindowEvent::MouseInput { state: ElementState::Pressed, button, .. } if !self.gui.has_pointer() => {
+            WindowEvent::MouseInput { state: ElementState::Pressed, button, .. } if self.is_over_picture() => {
                 self.press(*button);
             }
             WindowEvent::MouseInput { state: ElementState::Released, button, .. } => self.lift(*button),
-            WindowEvent::MouseWheel { delta, .. } if !self.gui.has_pointer() => self.on_wheel(*delta),
+            WindowEvent::MouseWheel { delta, .. } if self.is_over_picture() => self.on_wheel(*delta),
             WindowEvent::CursorMoved { position, .. } => {
                 let turn = self.look.pointer_motion(*position);
                 self.turn(turn);
@@ -204,6 +204,14 @@ impl Walkthrough {
             }
             self.pacer.want();
         }
+    }
+
+    /// The pointer is over the picture and over nothing that lies on it. The panels know of it only since their last frame, which
+    /// a quick click does not wait for.
+    fn is_over_picture(&self) -> bool {
+        let [width, height] = self.picture_size.map(f64::from);
+        let is_inside = self.look.pointer().is_none_or(|[x, y]| x < width && y < height);
+        is_inside && !self.gui.has_pointer()
     }
 
     fn press(&mut self, button: MouseButton) {

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use glam::Vec3;
 
-use crate::base::ids::TriangleId;
+use crate::base::ids::{InstanceId, TriangleId};
 use crate::scene::{AlphaMode, Scene, edge_cross};
 
 /// A corner this near to an edge, as a share of the scene's extent, lies on it.
@@ -42,6 +42,8 @@ pub struct Caster {
     pub normals: [Vec3; 3],
     /// From behind it may be invisible, and yet throws its shadow.
     pub is_single_sided: bool,
+    /// What it belongs to.
+    pub instance: InstanceId,
 }
 
 /// Two corners and the triangles that meet there.
@@ -85,7 +87,13 @@ impl Casters {
             });
             let is_single_sided = !material.double_sided;
             let normals = triangle.vertices.map(|vertex| scene.vertices[vertex as usize].normal);
-            casters.triangles.push(Caster { corners, parts: 0..0, normals, is_single_sided });
+            casters.triangles.push(Caster {
+                corners,
+                parts: 0..0,
+                normals,
+                is_single_sided,
+                instance: triangle.instance,
+            });
         }
         let (low, high) = scene.bounds();
         let cuts = casters.cuts(ON_EDGE * (high - low).max_element());

@@ -89,7 +89,7 @@ impl Judge {
         let Case { scene, shadows, view, .. } = case;
         // The last case may have been another scene.
         self.light.forget();
-        of(&mut self.light, Subject { frame: &frame, scene, shadows, view, look: &look })
+        of(&mut self.light, Subject { frame: &frame, scene, shadows, view, look: &look, watch: None })
     }
 }
 

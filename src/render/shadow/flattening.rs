@@ -6,7 +6,8 @@ use std::collections::HashMap;
 
 use glam::{DMat4, DVec3, DVec4, Vec3, Vec4};
 
-use super::casters::Casters;
+use super::casters::{Caster, Casters};
+use super::planar_shadow::PlanarSettings;
 use crate::base::ids::TriangleId;
 use crate::scene::{AlphaMode, Scene, area_of, normal_of};
 
@@ -25,23 +26,48 @@ pub struct Receiver {
     pub area: f32,
 }
 
-/// The `count` planes of a scene on which most area lies.
+/// Unit normal and distance of the plane of a triangle; none where it has no area.
 #[must_use]
-pub fn receivers(scene: &Scene, count: usize) -> Vec<Receiver> {
+pub fn plane_of(scene: &Scene, id: TriangleId) -> Option<Vec4> {
+    let corners = scene.corners(id);
+    let normal = normal_of(corners);
+    let distance = -normal.dot((corners[0] + corners[1] + corners[2]) / 3.0);
+    (normal != Vec3::ZERO).then(|| normal.extend(distance))
+}
+
+/// Two planes that look alike, of a scene this large, metres.
+#[must_use]
+pub fn is_same_plane(a: Vec4, b: Vec4, extent: f32) -> bool {
+    a.truncate().distance(b.truncate()) < 10.0 * SAME_NORMAL && (a.w - b.w).abs() < 100.0 * SAME_DISTANCE * extent
+}
+
+/// The planes of a scene that receive shadows: those that are chosen, else those on which most area lies.
+#[must_use]
+pub fn receivers(scene: &Scene, settings: &PlanarSettings) -> Vec<Receiver> {
+    let mut planes = planes(scene);
+    if settings.receivers.is_empty() {
+        planes.truncate(settings.num_receivers);
+    } else {
+        let (low, high) = scene.bounds();
+        let extent = (high - low).max_element();
+        planes.retain(|plane| settings.receivers.iter().any(|&chosen| is_same_plane(plane.plane, chosen, extent)));
+    }
+    planes
+}
+
+/// All planes of a scene, the largest first.
+fn planes(scene: &Scene) -> Vec<Receiver> {
     let (low, high) = scene.bounds();
     let step = SAME_DISTANCE * (high - low).max_element().max(f32::MIN_POSITIVE);
     let mut planes: HashMap<[i64; 4], Receiver> = HashMap::new();
     for t in 0..scene.triangles.len() {
         let id = TriangleId::new(t);
         let corners = scene.corners(id);
-        let normal = normal_of(corners);
-        if normal == Vec3::ZERO || scene.material_of(id).alpha_mode == AlphaMode::Blend {
+        let Some(plane) = plane_of(scene, id).filter(|_| scene.material_of(id).alpha_mode != AlphaMode::Blend) else {
             continue;
-        }
-        let distance = -normal.dot((corners[0] + corners[1] + corners[2]) / 3.0);
-        let [x, y, z] = normal.to_array().map(|n| (n / SAME_NORMAL).round() as i64);
-        let key = [x, y, z, (distance / (10.0 * step)).round() as i64];
-        let plane = normal.extend(distance);
+        };
+        let [x, y, z] = plane.truncate().to_array().map(|n| (n / SAME_NORMAL).round() as i64);
+        let key = [x, y, z, (plane.w / (10.0 * step)).round() as i64];
         let receiver = planes.entry(key).or_insert(Receiver { plane, triangles: Vec::new(), area: 0.0 });
         if corners.iter().any(|corner| receiver.plane.dot(corner.extend(1.0)).abs() > step) {
             continue;
@@ -52,7 +78,6 @@ pub fn receivers(scene: &Scene, count: usize) -> Vec<Receiver> {
     let mut receivers: Vec<Receiver> = planes.into_values().collect();
     receivers.retain(|receiver| !receiver.triangles.is_empty());
     receivers.sort_by(|a, b| b.area.total_cmp(&a.area).then(a.triangles[0].cmp(&b.triangles[0])));
-    receivers.truncate(count);
     receivers
 }
 
@@ -65,19 +90,20 @@ pub fn flattening(plane: DVec4, light: DVec4) -> DMat4 {
     DMat4::from_diagonal(DVec4::splat(plane.dot(light))) - outer
 }
 
-/// Triangles flattened on to a plane, three homogeneous corners each, w > 0 where `clips`; those within `clearance` of
+/// Triangles flattened on to a plane, three homogeneous corners each, w > 0 where casters are clipped; those within `clearance` of
 /// the plane lie in it and throw nothing.
 #[must_use]
-pub fn flattened(casters: &Casters, plane: Vec4, light: Vec4, clips: bool, clearance: f32) -> Vec<Vec4> {
+pub fn flattened(casters: &Casters, plane: Vec4, light: Vec4, settings: &PlanarSettings, clearance: f32) -> Vec<Vec4> {
     let (plane, light, clearance) = (plane.as_dvec4(), light.as_dvec4(), f64::from(clearance));
     let matrix = flattening(plane, light);
     let flat = |corner: DVec3| (matrix * corner.extend(1.0)).as_vec4();
     let height = |corner: DVec3| plane.dot(corner.extend(1.0));
     let ceiling = if light.w == 0.0 { f64::INFINITY } else { plane.dot(light) - clearance };
     let mut corners = Vec::new();
-    for triangle in &casters.triangles {
+    let is_chosen = |triangle: &&Caster| settings.casters.is_empty() || settings.casters.contains(&triangle.instance);
+    for triangle in casters.triangles.iter().filter(is_chosen) {
         let polygon = casters.corners(triangle).map(Vec3::as_dvec3);
-        if !clips {
+        if !settings.clips_casters {
             corners.extend(polygon.map(flat));
             continue;
         }
@@ -136,12 +162,15 @@ mod tests {
             parts: 0..0,
             normals: [Vec3::Y; 3],
             is_single_sided: false,
+            instance: crate::base::ids::InstanceId(0),
         };
         let casters = Casters { positions, triangles: vec![triangle], ..Casters::default() };
         let light = Vec4::new(0.0, 4.0, 0.0, 1.0);
-        let cut = flattened(&casters, Vec4::Y, light, true, 1e-3);
+        let cured = PlanarSettings::default();
+        let cut = flattened(&casters, Vec4::Y, light, &cured, 1e-3);
         assert_eq!(cut.len(), 6, "a quadrilateral");
         assert!(cut.iter().all(|corner| corner.w > 0.0));
-        assert!(flattened(&casters, Vec4::Y, light, false, 1e-3).iter().any(|corner| corner.w < 0.0));
+        let uncut = PlanarSettings { clips_casters: false, ..cured };
+        assert!(flattened(&casters, Vec4::Y, light, &uncut, 1e-3).iter().any(|corner| corner.w < 0.0));
     }
 }

@@ -16,11 +16,13 @@ pub mod shadow_map;
 pub mod shadow_volume;
 pub mod silhouette;
 
+mod batch;
 mod cutout_shadow;
 mod depth_prepass;
 mod direct_light;
 mod exact_rays;
-mod flattening;
+pub mod flattening;
+mod known_fault;
 mod light_targets;
 mod light_uniforms;
 mod map_pipelines;
@@ -32,8 +34,10 @@ mod solid;
 mod visible_points;
 mod volume_pipelines;
 
+pub use batch::{MOST_POINTS, num_batches};
 pub use debug::{DebugView, ShadowDebug};
 pub use difference::{Case, Decisions, Judge, ShadowDifference, shadow_difference};
+pub use known_fault::{KnownFault, known_fault};
 pub use light_samples::{LightSample, light_samples};
 pub use planar_shadow::PlanarSettings;
 pub use real_time::RealTimeLight;
@@ -42,6 +46,7 @@ pub use shadow_map::MapSettings;
 pub use shadow_volume::VolumeSettings;
 
 use crate::scene::Scene;
+use batch::batch_of_samples;
 
 /// How shadows are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -69,6 +74,8 @@ pub struct ShadowSettings {
     pub light_samples: u32,
     /// Size that point and spot lights are given, metres; 0 leaves them points.
     pub light_radius: f32,
+    /// Number of the batch of light samples that is added to those before it, from 0 on; none draws all samples at once.
+    pub batch: Option<u32>,
     /// Of planar shadows.
     pub planar: PlanarSettings,
     /// Of shadow maps.
@@ -81,7 +88,10 @@ impl ShadowSettings {
     /// The lights of a scene as points and directions.
     #[must_use]
     pub fn samples(&self, scene: &Scene) -> Vec<LightSample> {
-        light_samples(scene, self.light_samples, self.light_radius)
+        match self.batch {
+            Some(number) => batch_of_samples(scene, self.light_samples, self.light_radius, number),
+            None => light_samples(scene, self.light_samples, self.light_radius),
+        }
     }
 
     /// `technique` with the settings that show none of its faults.
@@ -91,6 +101,7 @@ impl ShadowSettings {
             technique,
             light_samples: 1,
             light_radius: 0.0,
+            batch: None,
             planar: PlanarSettings::default(),
             maps: MapSettings::default(),
             volumes: VolumeSettings::default(),

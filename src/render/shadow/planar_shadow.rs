@@ -6,13 +6,17 @@
 //! plane and at the light's height (else what is below throws shadows up, and what is above the light throws some too).
 //! Deliberately absent: shadows on anything but planes.
 
+use std::collections::BTreeSet;
+
 use glam::Vec4;
 use wgpu::util::DeviceExt;
 
-use super::flattening::{Receiver, flattened, receivers};
+use super::flattening::{Receiver, flattened, is_same_plane, plane_of, receivers};
 use super::pipeline::{CORNER, PipelineRecipe, against_depth};
 use super::real_time::Subject;
+use crate::base::ids::{InstanceId, TriangleId};
 use crate::gpu::{Gpu, shaders};
+use crate::scene::Scene;
 
 /// Stencil bits that count shadows.
 pub const SHADOWS: u32 = 0x07;
@@ -28,10 +32,14 @@ const LIFT: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: 16, slope_sc
 const CLEARANCE: f32 = 2e-5;
 
 /// How planar shadows are drawn.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PlanarSettings {
-    /// How many planes receive shadows: the largest.
+    /// How many planes receive shadows where none are chosen: the largest.
     pub num_receivers: usize,
+    /// Planes that are chosen to receive shadows, as [`plane_of`] tells them.
+    pub receivers: Vec<Vec4>,
+    /// Instances that are chosen to throw shadows; where there are none, all do.
+    pub casters: BTreeSet<InstanceId>,
     /// Shadows stay on their receivers; off lets them stick out.
     pub stays_on_receiver: bool,
     /// Shadows do not fight with their receivers for depth.
@@ -46,10 +54,32 @@ impl Default for PlanarSettings {
     fn default() -> Self {
         Self {
             num_receivers: 8,
+            receivers: Vec::new(),
+            casters: BTreeSet::new(),
             stays_on_receiver: true,
             is_free_of_depth: true,
             darkens_once: true,
             clips_casters: true,
+        }
+    }
+}
+
+impl PlanarSettings {
+    /// Chooses the plane of a triangle to receive shadows, or drops it again.
+    pub fn toggle_receiver(&mut self, scene: &Scene, triangle: TriangleId) {
+        let Some(plane) = plane_of(scene, triangle) else { return };
+        let (low, high) = scene.bounds();
+        let before = self.receivers.len();
+        self.receivers.retain(|&chosen| !is_same_plane(chosen, plane, (high - low).max_element()));
+        if self.receivers.len() == before {
+            self.receivers.push(plane);
+        }
+    }
+
+    /// Chooses an instance to throw shadows, or drops it again.
+    pub fn toggle_caster(&mut self, instance: InstanceId) {
+        if !self.casters.remove(&instance) {
+            self.casters.insert(instance);
         }
     }
 }
@@ -87,8 +117,7 @@ impl PlanarShadowPass {
             let buffer = vertex_buffer(gpu, &corners);
             (receiver, buffer)
         };
-        let count = settings.num_receivers.min(MAX_RECEIVERS);
-        self.receivers = receivers(scene, count).into_iter().map(upload).collect();
+        self.receivers = receivers(scene, settings).into_iter().take(MAX_RECEIVERS).map(upload).collect();
         if self.shadow.as_ref().is_none_or(|(known, _)| known != settings) {
             let (compare, bias) = match (settings.is_free_of_depth, settings.stays_on_receiver) {
                 (true, true) => (wgpu::CompareFunction::Always, Default::default()),
@@ -97,7 +126,7 @@ impl PlanarShadowPass {
             };
             let tests = against_depth(gpu, compare, shadow_stencil(settings), bias);
             let pipeline = pipeline(gpu, &self.layout, &self.module, self.samples, tests);
-            self.shadow = Some((*settings, pipeline));
+            self.shadow = Some((settings.clone(), pipeline));
         }
     }
 
@@ -115,7 +144,7 @@ impl PlanarShadowPass {
             if receiver.plane.dot(light) <= clearance * light.w {
                 continue;
             }
-            let shadows = flattened(&subject.shadows.casters, receiver.plane, light, settings.clips_casters, clearance);
+            let shadows = flattened(&subject.shadows.casters, receiver.plane, light, settings, clearance);
             if !shadows.is_empty() {
                 pass.set_stencil_reference(RECEIVER * number + 1);
                 draw(pass, shadow, &vertex_buffer(gpu, &shadows));

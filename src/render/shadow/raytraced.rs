@@ -36,6 +36,8 @@ pub struct RaytracedLight {
     prepass: DepthPrepass,
     points: VisiblePoints,
     targets: Option<LightTargets>,
+    /// What the last picture showed.
+    irradiance: Vec<Vec4>,
 }
 
 /// A visible point, found again in double precision.
@@ -55,17 +57,19 @@ impl RaytracedLight {
             prepass: DepthPrepass::new(gpu, frame_layout, 1),
             points: VisiblePoints::new(gpu, frame_layout),
             targets: None,
+            irradiance: Vec::new(),
         }
     }
 
-    /// Irradiance times pre-exposure, the fourth channel counting the samples seen; black where the device was lost,
-    /// which the next read-back tells.
+    /// Irradiance times pre-exposure, the fourth channel counting the samples seen, added to that of the last picture where
+    /// it `goes_on`; black where the device was lost, which the next read-back tells.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         size: [u32; 2],
         subject: Subject<'_>,
         samples: &[LightSample],
+        goes_on: bool,
     ) -> wgpu::TextureView {
         let places = self.places(gpu, size, subject).unwrap_or_default();
         let of = |place: &Place| {
@@ -80,7 +84,11 @@ impl RaytracedLight {
         };
         let mut irradiance: Vec<Vec4> = places.par_iter().map(|place| place.as_ref().map_or(Vec4::ZERO, of)).collect();
         irradiance.resize((size[0] * size[1]) as usize, Vec4::ZERO);
-        upload(gpu, size, &irradiance)
+        if goes_on {
+            irradiance.iter_mut().zip(&self.irradiance).for_each(|(sum, last)| *sum += last);
+        }
+        self.irradiance = irradiance;
+        upload(gpu, size, &self.irradiance)
     }
 
     /// Which pixels each light sample lights, `[sample][pixel]`.

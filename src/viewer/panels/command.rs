@@ -93,6 +93,10 @@ pub enum Tool {
     Sight,
     /// Chooses an instance.
     Choose,
+    /// Chooses a plane that receives planar shadows, or drops it again.
+    Receiver,
+    /// Chooses an instance that throws planar shadows, or drops it again.
+    Caster,
 }
 
 /// Tools with their names and meanings.

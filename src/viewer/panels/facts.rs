@@ -62,6 +62,18 @@ pub struct Facts<'a> {
     pub is_writing: bool,
     /// Rays a pixel of the traced view; none where it is drawn.
     pub num_rays: Option<u32>,
+    /// Points a lamp that have been added up so far while the camera rests, and how many there will be.
+    pub num_points: Option<[u32; 2]>,
+    /// Share of pixels in which the compared shadows differ, where that is shown.
+    pub difference: Option<f32>,
+    /// What is known to be wrong with the shadows from here.
+    pub fault: Option<&'a str>,
+    /// What the passes of the last picture have taken, milliseconds, where they are timed.
+    pub laps: &'a [(&'static str, f32)],
+    /// They are timed by the device itself.
+    pub has_device_clock: bool,
+    /// Points and directions from which direct light comes.
+    pub num_light_samples: usize,
     /// Numbers of the views that are marked.
     pub bookmarks: Vec<u8>,
     /// Nothing stands before a point.

@@ -7,6 +7,7 @@ mod advice;
 mod bake;
 mod certificate;
 mod command;
+mod compare;
 mod facts;
 mod help;
 mod legend;
@@ -151,6 +152,22 @@ impl Panels {
         }
     }
 
+    /// Instances that are tinted in the picture: the selected one, or those that are chosen to throw shadows.
+    #[must_use]
+    pub fn chosen_instances(&self) -> BTreeSet<InstanceId> {
+        match self.tool {
+            Tool::Caster => self.light.shadows.planar.casters.clone(),
+            _ => self.selection.chosen.into_iter().collect(),
+        }
+    }
+
+    /// Times of passes are on show.
+    #[must_use]
+    pub fn shows_times(&self) -> bool {
+        let is_unfolded = self.memory.sections.get("Shadows").copied().unwrap_or(false);
+        self.light.is_real_time && self.memory.is_open && self.memory.tab == Tab::Picture && is_unfolded
+    }
+
     /// Lays out all panels; what the user asked for, and what is left for the picture.
     pub fn ui(&mut self, ui: &mut Ui, facts: &Facts<'_>) -> (Vec<Command>, Rect) {
         let mut commands = Vec::new();
@@ -178,6 +195,7 @@ impl Panels {
             message::empty_ui(ui.ctx(), free, &facts.light);
         }
         markers::markers_ui(ui, free, &self.light.groups, facts);
+        compare::compare_ui(ui, free, &mut self.light, facts);
         if self.light.shading == Shading::FalseColour && facts.scene.is_some() {
             legend::legend_ui(ui, free, &self.light.lux_scale.in_order());
         }
@@ -230,12 +248,12 @@ impl Panels {
     }
 
     fn picture_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
-        let Self { light, memory: Memory { sections, wire, traces_stills, .. }, .. } = self;
+        let Self { light, tool, memory: Memory { sections, wire, traces_stills, .. }, .. } = self;
         section(ui, sections, "View", true, |ui| {
             view::view_ui(ui, light, wire, traces_stills, facts, commands);
         });
         section(ui, sections, "Light", true, |ui| light::light_ui(ui, light, commands));
-        section(ui, sections, "Shadows", false, |ui| shadows::shadows_ui(ui, light));
+        section(ui, sections, "Shadows", false, |ui| shadows::shadows_ui(ui, light, *tool, facts, commands));
     }
 
     fn solution_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {

@@ -23,6 +23,10 @@ pub fn status_ui(ui: &mut Ui, facts: &Facts<'_>) {
             ui.separator();
             ui.label(RichText::new(format!("traced, {num_rays} rays a pixel")).color(theme::ACCENT));
         }
+        if let Some([done, all]) = facts.num_points {
+            ui.separator();
+            ui.label(RichText::new(format!("{done} of {all} points a lamp")).color(theme::ACCENT));
+        }
         if facts.meter.is_busy {
             ui.separator();
             ui.label(RichText::new("measuring ...").color(theme::ACCENT));

@@ -39,7 +39,7 @@ pub struct Marks {
 
 impl Source {
     pub fn new(view: DebugView, settings: &ShadowSettings, sample: &LightSample) -> Self {
-        Self { view, place: sample.place(), planar: settings.planar }
+        Self { view, place: sample.place(), planar: settings.planar.clone() }
     }
 }
 
@@ -51,9 +51,7 @@ impl Marks {
             DebugView::Silhouettes => marks.silhouettes(&shadows.casters, source.place),
             DebugView::Receivers => {
                 let scene = shadows.scene();
-                for (receiver, colour) in
-                    receivers(scene, source.planar.num_receivers).iter().zip(RECEIVERS.into_iter().cycle())
-                {
+                for (receiver, colour) in receivers(scene, &source.planar).iter().zip(RECEIVERS.into_iter().cycle()) {
                     marks.receiver(scene, receiver, colour);
                 }
             }

@@ -5,7 +5,9 @@ mod inspection;
 
 pub use decisions::SampleDecisions;
 
-use crate::gpu::{Gpu, SceneBuffers, shaders};
+use std::time::Instant;
+
+use crate::gpu::{Gpu, SceneBuffers, Stopwatch, shaders};
 use crate::render::shadow::cutout_shadow::CutoutShadowPass;
 use crate::render::shadow::depth_prepass::DepthPrepass;
 use crate::render::shadow::direct_light::{self, DirectLightPass, Lit, WHERE_UNSHADOWED};
@@ -33,6 +35,23 @@ pub struct Subject<'a> {
     pub view: &'a View,
     /// How.
     pub look: &'a Look,
+    /// Times the passes.
+    pub watch: Option<&'a Stopwatch>,
+}
+
+impl Subject<'_> {
+    /// What was recorded since the last mark is called `name`.
+    pub fn lap(&self, encoder: &mut wgpu::CommandEncoder, name: &'static str) {
+        self.watch.iter().for_each(|watch| watch.lap(encoder, name));
+    }
+
+    /// Times work of the processor.
+    pub fn work<T>(&self, name: &'static str, work: impl FnOnce() -> T) -> T {
+        let begun = Instant::now();
+        let done = work();
+        self.watch.iter().for_each(|watch| watch.work(name, begun.elapsed()));
+        done
+    }
 }
 
 /// Where at least two planar shadows overlap.
@@ -109,16 +128,21 @@ impl RealTimeLight {
         settings: &ShadowSettings,
     ) -> wgpu::TextureView {
         let samples = settings.samples(subject.shadows.scene());
+        let goes_on = settings.batch.is_some_and(|batch| batch > 0);
         if settings.technique == ShadowTechnique::Raytraced {
-            return self.raytraced.draw(gpu, size, subject, &samples);
+            let raytraced = &mut self.raytraced;
+            return subject.work("rays, on the processor", || raytraced.draw(gpu, size, subject, &samples, goes_on));
         }
         let targets = self.targets_of(gpu, size);
         let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
-        self.prepare(gpu, subject, &samples, settings);
+        subject.work("silhouettes, on the processor", || self.prepare(gpu, subject, &samples, settings));
 
         // Which surfaces are visible, and no light on them.
         self.prepass.draw(encoder, &targets, subject.frame, subject.scene, subject.look);
-        direct_light::clear(encoder, &targets);
+        if !goes_on {
+            direct_light::clear(encoder, &targets);
+        }
+        subject.lap(encoder, "depth prepass");
         // One shadow and one layer of light after the other.
         for (index, sample) in samples.iter().enumerate() {
             self.add_sample(gpu, encoder, &targets, subject, settings, &lights, (index, sample));
@@ -185,9 +209,13 @@ impl RealTimeLight {
         (index, sample): (usize, &LightSample),
     ) {
         self.mark_shadows(gpu, encoder, targets, subject, settings, lights, (index, sample));
+        subject.lap(encoder, "shadow stencil");
         // Light where there are none.
         let is_map = settings.technique == ShadowTechnique::Map;
         let map = is_map.then(|| self.maps.draw(gpu, encoder, subject, sample, &settings.maps).1);
+        if is_map {
+            subject.lap(encoder, "shadow maps");
+        }
         let mut pass = direct_light::begin(encoder, targets);
         pass.set_bind_group(0, subject.frame, &[]);
         lights.bind(&mut pass, index);
@@ -198,6 +226,8 @@ impl RealTimeLight {
         if settings.technique == ShadowTechnique::Planar && !settings.planar.darkens_once {
             self.planar_twice.draw(&mut pass, subject.scene, subject.look);
         }
+        drop(pass);
+        subject.lap(encoder, "direct light");
     }
 
     fn light_of(&self, technique: ShadowTechnique) -> &DirectLightPass {

@@ -7,6 +7,8 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::Vec3;
 
+mod shadows;
+
 use super::*;
 use crate::bake::BakeSettings;
 use crate::base::progress::Stage;
@@ -50,6 +52,12 @@ fn facts(scene: Option<&'static Scene>, light: LightState) -> Facts<'static> {
         is_recording: false,
         is_writing: false,
         num_rays: None,
+        num_points: None,
+        difference: None,
+        fault: None,
+        laps: &[],
+        has_device_clock: false,
+        num_light_samples: 0,
         bookmarks: Vec::new(),
         sees: &|_| true,
     }

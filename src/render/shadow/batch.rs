@@ -1,0 +1,70 @@
+//! Light samples in batches: while nothing moves, pictures with a few samples each add up to one with many.
+
+use super::light_samples::{LightSample, light_samples};
+use crate::scene::Scene;
+
+/// Points on each lamp that all batches have together.
+pub const MOST_POINTS: u32 = 256;
+
+/// Batches of `per_lamp` points each, a power of two.
+#[must_use]
+pub fn num_batches(per_lamp: u32) -> u32 {
+    MOST_POINTS / per_lamp.next_power_of_two().clamp(1, MOST_POINTS)
+}
+
+/// The samples of one batch, as strong as all together: the mean over all batches is the light of [`MOST_POINTS`]
+/// points a lamp. After any number of batches the points so far are spread evenly.
+#[must_use]
+pub fn batch_of_samples(scene: &Scene, per_lamp: u32, radius: f32, number: u32) -> Vec<LightSample> {
+    let count = num_batches(per_lamp);
+    // Reversed bits jump about (van der Corput 1935).
+    let wanted = if count == 1 { 0 } else { number.reverse_bits() >> (32 - count.trailing_zeros()) };
+    let mut samples = light_samples(scene, MOST_POINTS, radius);
+    let mut batch = Vec::new();
+    for lamp in samples.chunk_by_mut(|a, b| a.lamp == b.lamp) {
+        let is_one_point = lamp.len() == 1;
+        for (index, sample) in lamp.iter_mut().enumerate() {
+            if is_one_point {
+                batch.push(sample.clone());
+            } else if index as u32 % count == wanted {
+                sample.light.intensity *= count as f32;
+                batch.push(sample.clone());
+            }
+        }
+    }
+    batch
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::builtin;
+    use glam::Vec3;
+
+    #[test]
+    fn all_batches_together_are_all_samples() {
+        let scene = builtin::gallery();
+        let all = light_samples(&scene, MOST_POINTS, 0.0);
+        let (point, normal) = (Vec3::new(0.3, 0.1, 0.2), Vec3::Y);
+        let sum = |samples: &[LightSample]| samples.iter().map(|s| s.irradiance(point, normal)).sum::<Vec3>();
+        for per_lamp in [1, 16, 64, 256] {
+            let count = num_batches(per_lamp);
+            assert_eq!(count * per_lamp, MOST_POINTS);
+            let batches = (0..count).map(|number| sum(&batch_of_samples(&scene, per_lamp, 0.0, number)));
+            let mean = batches.sum::<Vec3>() / count as f32;
+            assert!((mean / sum(&all) - 1.0).abs().max_element() < 1e-4, "{per_lamp}: {mean}, not {}", sum(&all));
+        }
+    }
+
+    #[test]
+    fn no_point_comes_twice() {
+        let scene = builtin::cornell();
+        let mut places: Vec<_> = (0..num_batches(8))
+            .flat_map(|number| batch_of_samples(&scene, 8, 0.0, number))
+            .map(|sample| sample.place().to_array().map(f32::to_bits))
+            .collect();
+        places.sort_unstable();
+        places.dedup();
+        assert_eq!(places.len(), MOST_POINTS as usize);
+    }
+}
