@@ -71,6 +71,29 @@ fn a_mirror_throws_the_light_of_the_lamp_behind_it() {
 }
 
 #[test]
+fn a_small_lamp_shines_in_rough_metal_without_grain() {
+    let mut quads = Quads::square(Material { roughness: 0.4, ..silver() }, Vec3::ZERO);
+    let lamp = Material { emission: Vec3::splat(50.0), group: Some(GroupId(0)), ..paint(Vec3::ZERO) };
+    let lamp = quads.material(lamp);
+    quads.quad(Vec3::new(1.2, -0.1, 1.2), 0.2 * Vec3::Y, 0.2 * Vec3::X, lamp);
+    quads.light(GroupId(0), |_| Vec3::ZERO, |_| Vec3::ZERO);
+    let film = |ambient, samples| {
+        let settings = TwoPassSettings { samples, ambient, seed: 0 };
+        let tracer = Tracer::new(&quads.baked.scene);
+        two_pass(&tracer, &quads.baked, &square_camera(), [16; 2], &settings, &Unwatched)
+    };
+    // Over stored light, which is none here, lamps are met by chance only.
+    let (aimed, chance) = (film(Ambient::None, 64), film(Ambient::All, 4096));
+    let paths = by_paths(&quads.baked.scene, 256);
+    let expected = mean(&chance);
+    for found in [mean(&aimed), paths] {
+        assert!((found / expected - 1.0).abs().max_element() < 0.02, "{found} for {expected}");
+    }
+    let [aimed, chance] = [aimed, film(Ambient::All, 64)].map(|film| film.noise().pixel);
+    assert!(aimed < 0.05 && aimed < 0.2 * chance, "{aimed} and {chance}");
+}
+
+#[test]
 fn a_lamp_behind_a_pane_lights_through_it() {
     let mut builder = SceneBuilder::default();
     let floor = builder.material(Vec3::splat(0.5), Vec3::ZERO);
