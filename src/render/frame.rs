@@ -98,6 +98,23 @@ impl Renderer {
         self.watch = watch;
     }
 
+    /// Records part of the direct light of a picture, which the next [`Renderer::draw`] of the same goes on with.
+    pub fn add_light(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        size: [u32; 2],
+        scene: &SceneBuffers,
+        view: &View,
+        look: &Look,
+    ) {
+        let (Some(settings), Some(shadows)) = (&look.shadows, &self.shadows) else { return };
+        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
+        let subject = Subject { frame: &frame, scene, shadows, view, look, watch: self.watch.as_deref() };
+        let lit = self.lit.get_or_insert_with(|| LitPasses::new(gpu, &self.frame_layout, self.samples));
+        lit.light.draw(gpu, encoder, size, subject, settings);
+    }
+
     /// Records a picture of `scene` into the whole of `target`, which is `size` pixels wide and high.
     #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, target, size) and what (scene, view, look)")]
     pub fn draw(

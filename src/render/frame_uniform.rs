@@ -43,7 +43,8 @@ impl FrameUniform {
             exposure: look.fixed_exposure().unwrap_or(0.0),
             metal_as_diffuse: u32::from(look.metal_as_diffuse),
             num_vertices: scene.num_vertices() as u32,
-            live: 1.0 / (look.shadows.as_ref().and_then(|shadows| shadows.batch).unwrap_or(0) + 1) as f32,
+            live: 1.0
+                / (1 + look.shadows.as_ref().and_then(|shadows| shadows.batch).map_or(0, |batch| batch.number)) as f32,
             padding: [0; 3],
             eye: view.eye(),
             lux_scale: look.lux_scale.uniform(),

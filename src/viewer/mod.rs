@@ -32,6 +32,7 @@ pub mod walk;
 pub mod walkthrough;
 pub mod worker;
 
+mod accumulation;
 mod commands;
 mod default_sky;
 mod difference;

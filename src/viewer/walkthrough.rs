@@ -58,6 +58,8 @@ pub struct Walkthrough {
     remembered: (Memory, Instant),
     /// A still camera was to trace in the last frame.
     pub(super) traced_stills: bool,
+    /// Light samples that are added up in a frame while the camera rests.
+    pub(super) samples_a_frame: usize,
     /// What the eye circles round while a button is held.
     orbit: Option<glam::Vec3>,
 }
@@ -96,6 +98,7 @@ impl Walkthrough {
             marks: MarksCache::default(),
             still_due: None,
             traced_stills: false,
+            samples_a_frame: 1,
             orbit: None,
         })
     }
