@@ -96,7 +96,7 @@ fn a_lamp_behind_a_pane_lights_through_it() {
     let kind = LightKind::Point { position };
     let intensity = Vec3::splat(3.0);
     scene.materials[1].emission = Vec3::ZERO;
-    scene.lights.push(Light { name: String::new(), kind, intensity, range: None, group: GroupId(0) });
+    scene.lights.push(Light { name: String::new(), kind, intensity, range: None, profile: None, group: GroupId(0) });
     scene.triangles.retain(|triangle| triangle.material.index() != 1);
     let found = irradiance(&Tracer::new(&scene), &[point], &settings, &Unwatched).expect("nobody cancels")[0];
     let exact = 3.0 * 0.96 * 0.5 * position.y / position.length().powi(3);
@@ -147,7 +147,14 @@ fn a_normal_map_turns_the_surface_to_the_light() {
         let mut quads = Quads::square(relief, Vec3::ZERO);
         quads.baked.scene.textures.push(texture(1, &[texel]));
         let kind = LightKind::Directional { direction: -lean };
-        let sun = Light { name: String::new(), kind, intensity: Vec3::splat(PI), range: None, group: GroupId(0) };
+        let sun = Light {
+            name: String::new(),
+            kind,
+            intensity: Vec3::splat(PI),
+            range: None,
+            profile: None,
+            group: GroupId(0),
+        };
         quads.baked.scene.lights.push(sun);
         // A surface that faces the sun shows its reflectance.
         let found = second_pass(&quads, Ambient::None);
