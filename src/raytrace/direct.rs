@@ -28,11 +28,12 @@ impl Passing {
 
 impl PathTracer<'_> {
     /// Radiance towards the viewer of light straight from the lights: from every punctual one, and from one place on an
-    /// emissive triangle.
+    /// emissive triangle; without the share of lamps in glossy metal that falls to rays which follow it.
     pub(super) fn direct(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
         let place = self.above(surface.position, surface.geometric);
         let punctual: Vec3 = self.lights.punctual(place).map(|arrival| self.reflected(surface, place, &arrival)).sum();
-        punctual + self.reflected_of_emitters(surface, place, |_| 0.0, sampler)
+        punctual
+            + self.reflected_of_emitters(surface, place, |direction| [0.0, surface.glossy_density(direction)], sampler)
     }
 
     /// As [`Self::direct`], from one of the punctual lights, and without the shares of light that fall to other ways to find
@@ -62,7 +63,8 @@ impl PathTracer<'_> {
                 radiance += unhidden * passing.share * (share / probability);
             }
         }
-        radiance + self.reflected_of_emitters(surface, place, |direction| surface.diffuse_density(direction), sampler)
+        let densities = |direction| [surface.diffuse_density(direction), surface.scattered_glossy_density(direction)];
+        radiance + self.reflected_of_emitters(surface, place, densities, sampler)
     }
 
     /// Radiance towards the viewer of a punctual light, with its highlight and its shadow.
@@ -87,19 +89,34 @@ impl PathTracer<'_> {
         share * arrival.irradiance
     }
 
-    /// Radiance towards the viewer of the emissive triangles, reflected diffusely.
+    /// Radiance towards the viewer of the emissive triangles, reflected diffusely and in glossy metal, without the shares
+    /// that fall to rays followed either way, whose directions have the `path_densities`.
     fn reflected_of_emitters(
         &self,
         surface: &Surface,
         place: Vec3,
-        path_density: impl Fn(Vec3) -> f32,
+        path_densities: impl Fn(Vec3) -> [f32; 2],
         sampler: &mut Sampler,
     ) -> Vec3 {
-        if !self.lights.has_emitters() || surface.reflectance == Vec3::ZERO {
+        let is_glossy = surface.specular.as_ref().is_some_and(|specular| !specular.is_perfect());
+        if !self.lights.has_emitters() || surface.reflectance == Vec3::ZERO && !is_glossy {
             return Vec3::ZERO;
         }
-        let irradiance = self.emitter_irradiance(place, surface.normal, surface.geometric, path_density, sampler);
-        surface.reflectance * FRAC_1_PI * irradiance
+        let Some((sample, passing)) = self.emitter_sample(place, surface.normal, surface.geometric, sampler) else {
+            return Vec3::ZERO;
+        };
+        let [diffuse, glossy] = path_densities(sample.direction);
+        // Paths leave what comes through panes to the aimed rays, and reflections in metal keep it.
+        let [to_diffuse, to_glossy] = if passing.has_pane {
+            [1.0, 0.0]
+        } else {
+            [diffuse, glossy].map(|path| power_heuristic(sample.density, path))
+        };
+        let mut reflected = surface.reflectance * (FRAC_1_PI * surface.normal.dot(sample.direction) * to_diffuse);
+        if let Some(specular) = surface.specular.as_ref().filter(|_| is_glossy) {
+            reflected += specular.highlight(surface.to_viewer, sample.direction) * to_glossy;
+        }
+        reflected * sample.radiance * passing.share / sample.density
     }
 
     /// Irradiance from the emissive triangles on a surface with this shading normal and this geometric one, by one sample,

@@ -1,6 +1,6 @@
 //! Path tracing: unbiased light along a ray, the truth that the other methods are judged by.
 //!
-//! At every diffuse surface light is sampled twice: at the lamps (next-event estimation) and by the path itself; each
+//! At every diffuse or glossy surface light is sampled twice: at the lamps (next-event estimation) and by the path itself; each
 //! lamp's light is shared between the two by the power heuristic. Punctual lights can only be aimed at, also through
 //! panes, or followed to what is close to them; mirrors can only be followed: what a mirror throws of a punctual light is
 //! left out.
@@ -57,6 +57,8 @@ pub(super) enum Chance {
     Only,
     /// Lamps are sampled too, from a surface with this normal; density per steradian.
     Among { normal: Vec3, density: f32 },
+    /// As [`Chance::Among`], by a reflection in metal: the eye sees through it.
+    Glossy { normal: Vec3, density: f32 },
     /// It goes on through a pane from a surface that has looked for lamps behind panes itself.
     Aimed,
 }
@@ -71,10 +73,17 @@ pub(super) struct Arriving {
 }
 
 impl Chance {
+    /// The chance of a ray reflected in metal, in a direction of some density.
+    pub(super) fn reflected(normal: Vec3, density: f32) -> Self {
+        if density > 0.0 { Chance::Glossy { normal, density } } else { Chance::Only }
+    }
+
     /// The chance of a ray that has passed a pane.
     pub(super) fn behind_pane(self) -> Self {
         match self {
             Chance::Among { .. } => Chance::Aimed,
+            // What comes through panes is not aimed at for metal.
+            Chance::Glossy { .. } => Chance::Only,
             other => other,
         }
     }
@@ -166,7 +175,7 @@ impl<'a> PathTracer<'a> {
             throughput *= scattered.throughput;
             let chance = match scattered.way {
                 Way::Diffuse { density } => Chance::Among { normal: surface.normal, density },
-                Way::Reflected => Chance::Only,
+                Way::Reflected { density } => Chance::reflected(surface.normal, density),
                 Way::Passed => ray.chance.behind_pane(),
             };
             ray = self.onward(&surface, scattered.direction, chance);
@@ -203,7 +212,7 @@ impl<'a> PathTracer<'a> {
         match ray.chance {
             Chance::Eye | Chance::Only => 1.0,
             Chance::Aimed => 0.0,
-            Chance::Among { normal, density } => {
+            Chance::Among { normal, density } | Chance::Glossy { normal, density } => {
                 let at_lamps = self.lights.density(ray.origin, normal, ray.direction, hit.triangle, hit.distance);
                 power_heuristic(density, at_lamps)
             }
