@@ -101,6 +101,7 @@ fn generated() -> Scene {
         kind: LightKind::Point { position: Vec3::new(10.0, 6.0, 5.0) },
         intensity: Vec3::splat(5000.0),
         range: None,
+        profile: None,
         group: GroupId(0),
     });
     scene

@@ -6,6 +6,8 @@ use glam::Vec3;
 use hemicube::base::ids::TriangleId;
 use hemicube::base::sampling::{r2, triangle_from_square};
 use hemicube::patch::{MeshSettings, PatchMesh, Splits};
+use hemicube::radiosity::sites::Sites;
+use hemicube::scene::normal_of;
 
 use crate::support::scenes;
 
@@ -89,4 +91,21 @@ fn patches_are_flat_pieces_of_about_the_asked_size() {
         assert!(patch.area <= 0.3 * 0.8, "a patch of {} m2", patch.area);
     }
     assert!((36..=100).contains(&mesh.patches.len()), "{} patches", mesh.patches.len());
+}
+
+#[test]
+fn sites_stand_above_their_elements_though_shading_normals_lean() {
+    let mut scene = scenes::furnace(Vec3::splat(0.5), Vec3::ONE);
+    for vertex in &mut scene.vertices {
+        vertex.normal = (vertex.normal + 0.2 * vertex.normal.any_orthonormal_vector()).normalize();
+    }
+    let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.3, patch_size: 0.5 }).unwrap();
+    let sites = Sites::new(&scene).of_light_vertices(&mesh);
+    for element in &mesh.elements {
+        let normal = normal_of(mesh.corners(element));
+        for l in mesh.light_vertices_of(element) {
+            let height = (sites[l].position - mesh.light_vertices[l].position).dot(normal);
+            assert!(height > 0.0, "a site is {height} below its surface");
+        }
+    }
 }

@@ -121,6 +121,33 @@ fn one_bounce_off_a_point_of_light_is_a_sum_over_the_floor() {
 }
 
 #[test]
+fn what_a_point_of_light_throws_on_a_ceiling_beside_it_is_found_by_few_paths() {
+    let mut builder = SceneBuilder::default();
+    let ceiling = builder.material(Vec3::splat(0.5), Vec3::ZERO);
+    let at = |x: f32, z: f32| Vec3::new(x, 0.0, z);
+    builder.quad([at(-1.0, -1.0), at(-1.0, 1.0), at(1.0, 1.0), at(1.0, -1.0)], ceiling);
+    let (height, intensity) = (0.01, 100.0);
+    builder.point_light(Vec3::new(0.3, height, 0.1), Vec3::splat(intensity), 0);
+    let scene = builder.build(1);
+    let eye = Vec3::new(0.3, 1.5, 0.1);
+    let found = measure(&scene, eye, Vec3::NEG_Y, &PathSettings { samples: 1024, ..PathSettings::default() });
+    // Half of the light falls on the ceiling: the integral over equal parts of it by the midpoint rule.
+    let (mut exact, steps) = (0.0, 400);
+    for i in 0..steps * steps {
+        let [part, turn] = [i % steps, i / steps].map(|k| (k as f32 + 0.5) / steps as f32);
+        let radius = height * (1.0 / (part * part) - 1.0).sqrt();
+        let (sin, cos) = (2.0 * PI * turn).sin_cos();
+        let lit = Vec3::new(0.3 + radius * cos, 0.0, 0.1 + radius * sin);
+        if lit.abs().max_element() < 1.0 {
+            exact += eye.y * eye.y / eye.distance_squared(lit).powi(2);
+        }
+    }
+    exact *= 0.5 * FRAC_1_PI * 2.0 * PI * intensity / (steps * steps) as f32;
+    let indirect = found.total - found.direct;
+    assert_close(indirect, found.total_error, Vec3::splat(exact));
+}
+
+#[test]
 fn a_pattern_on_a_lamp_lights_as_its_bright_half() {
     let mut quads = Quads::with_groups(1);
     quads.baked.scene.textures.push(texture(2, &[[0, 0, 0, 255], [255, 255, 255, 255]]));

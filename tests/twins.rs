@@ -100,6 +100,16 @@ fn geometry_is_that_of_the_twin() {
     }
 }
 
+#[test]
+fn a_photometric_file_of_even_light_shines_as_a_point() {
+    let [point, photometric] = [scene("point_light"), scene("photometric_light")].map(|scene| scene.lights[0].clone());
+    assert!(point.profile.is_none() && photometric.profile.is_some());
+    for at in [Vec3::ZERO, Vec3::new(1.0, 9.0, 2.0), Vec3::new(-4.0, 2.0, 7.0)] {
+        let [a, b] = [&point, &photometric].map(|light| light.arrival(at).irradiance);
+        assert!((a - b).length() < 1e-5 * a.length(), "{a} and {b} at {at}");
+    }
+}
+
 /// The later extension is the earlier one by another name.
 #[test]
 fn khr_meshopt_compression_reads_as_ext() {

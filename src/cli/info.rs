@@ -102,7 +102,10 @@ fn describe_light(light: &Light) -> String {
     let amount = luminance(light.intensity);
     let range = light.range.map_or_else(String::new, |range| format!(", range {range} m"));
     match light.kind {
-        LightKind::Point { position } => format!("point        {amount:>10.2} cd  at {position:.2}{range}"),
+        LightKind::Point { position } => {
+            let kind = if light.profile.is_some() { "photometric" } else { "point" };
+            format!("{kind:<12} {amount:>10.2} cd  at {position:.2}{range}")
+        }
         LightKind::Spot { position, direction, inner_angle, outer_angle } => {
             let (inner, outer) = (inner_angle.to_degrees(), outer_angle.to_degrees());
             format!(

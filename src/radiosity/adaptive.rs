@@ -15,6 +15,7 @@ use glam::Vec3;
 use super::field::Field;
 use super::sites::Sites;
 use crate::base::colour::luminance;
+use crate::base::ids::ElementId;
 use crate::form_factor::Viewpoint;
 use crate::patch::{LightKey, LightVertex, MeshError, MeshSettings, PatchMesh, Splits, light_key};
 use crate::scene::Scene;
@@ -24,6 +25,9 @@ use crate::scene::Scene;
 pub struct RefineSettings {
     /// Deviation from the mean of the ends at which an edge is halved, relative to the light there.
     pub max_error: f32,
+    /// Edges shorter than this must deviate more, in inverse proportion to their length, metres: a hard edge of a shadow
+    /// is worth small elements, a soft one is not.
+    pub short_edge: f32,
     /// Edges shorter than twice this stay whole, metres.
     pub min_edge: f32,
     /// About the most elements that there may be.
@@ -87,7 +91,9 @@ impl<'a> Cut<'a> {
             let mut wanted: Vec<(f32, &Edge)> = (0..)
                 .zip(&edges)
                 .filter_map(|(i, edge)| Some((edge.deviation(&lit, &middles, i, floor)?, edge)))
-                .filter(|(deviation, _)| *deviation > settings.max_error)
+                .filter(|(deviation, edge)| {
+                    *deviation > settings.max_error * edge.strictness(&mesh, settings.short_edge)
+                })
                 .collect();
             if wanted.is_empty() {
                 return Ok((mesh, lit));
@@ -125,8 +131,7 @@ const ELEMENTS_A_SPLIT: usize = 4;
 /// An edge between light vertices `[l]`, seen by the elements of one side of a surface.
 struct Edge {
     ends: [usize; 2],
-    sum_of_centroids: Vec3,
-    num_elements: f32,
+    elements: Vec<ElementId>,
 }
 
 impl Edge {
@@ -139,7 +144,13 @@ impl Edge {
     fn viewpoint(&self, mesh: &PatchMesh, sites: &Sites) -> Viewpoint {
         let middle = self.middle(mesh);
         let seed = middle.position.to_array().map(f32::to_bits).into_iter().fold(0, |seed, bits| seed ^ bits);
-        sites.beside(&middle, self.sum_of_centroids / self.num_elements, seed)
+        sites.beside(mesh, &middle, self.elements.iter().copied(), seed)
+    }
+
+    /// How many times the largest error the edge must deviate by.
+    fn strictness(&self, mesh: &PatchMesh, short_edge: f32) -> f32 {
+        let [a, b] = self.ends.map(|l| mesh.light_vertices[l].position);
+        (short_edge / a.distance(b)).max(1.0)
     }
 
     /// How far the middle is from the mean of the ends; none where one of them lies inside something.
@@ -157,7 +168,7 @@ impl Edge {
 fn untested_edges(mesh: &PatchMesh, min_edge: f32, tested: &mut HashSet<[LightKey; 2]>) -> Vec<Edge> {
     let mut index_of: HashMap<[usize; 2], usize> = HashMap::new();
     let mut edges: Vec<Edge> = Vec::new();
-    for element in &mesh.elements {
+    for (e, element) in mesh.elements.iter().enumerate() {
         let corners = mesh.light_vertices_of(element);
         for k in 0..3 {
             let (a, b) = (corners[k], corners[(k + 1) % 3]);
@@ -167,11 +178,10 @@ fn untested_edges(mesh: &PatchMesh, min_edge: f32, tested: &mut HashSet<[LightKe
             }
             let ends = [a.min(b), a.max(b)];
             let index = *index_of.entry(ends).or_insert_with(|| {
-                edges.push(Edge { ends, sum_of_centroids: Vec3::ZERO, num_elements: 0.0 });
+                edges.push(Edge { ends, elements: Vec::new() });
                 edges.len() - 1
             });
-            edges[index].sum_of_centroids += mesh.centroid(element);
-            edges[index].num_elements += 1.0;
+            edges[index].elements.push(ElementId::new(e));
         }
     }
     edges.retain(|edge| {

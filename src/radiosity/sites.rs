@@ -1,6 +1,7 @@
 //! Where irradiance is looked up: the light vertices, each moved a hair off its surface.
 
 use glam::Vec3;
+use rayon::prelude::*;
 
 use crate::base::ids::ElementId;
 use crate::base::sampling::{hash, r2, triangle_from_square};
@@ -14,6 +15,9 @@ const HEIGHT: f32 = 2e-5;
 /// How far a site is moved from its vertex towards the middle of the elements round it. A vertex in a corner of the room
 /// lies exactly in the other wall; a site must not.
 const INSET: f32 = 0.05;
+
+/// Smallest cosine between a shading normal and that of an element for the one to tell what is above the other.
+const STEEPEST: f32 = 0.1;
 
 /// Makes viewpoints that stand off their surfaces.
 #[derive(Clone, Copy, Debug)]
@@ -32,28 +36,40 @@ impl Sites {
     /// One viewpoint a light vertex `[l]`, with its shading normal.
     #[must_use]
     pub fn of_light_vertices(&self, mesh: &PatchMesh) -> Vec<Viewpoint> {
-        let mut sum_of_centroids = vec![(Vec3::ZERO, 0.0); mesh.light_vertices.len()];
-        for element in &mesh.elements {
-            let centroid = mesh.centroid(element);
-            for l in mesh.light_vertices_of(element) {
-                sum_of_centroids[l].0 += centroid;
-                sum_of_centroids[l].1 += 1.0;
-            }
-        }
-        let site = |(l, (sum, count)): (usize, &(Vec3, f32))| {
-            let vertex = &mesh.light_vertices[l];
-            let middle = if *count > 0.0 { sum / *count } else { vertex.position };
-            self.beside(vertex, middle, l as u32)
+        let corner = |e: usize| mesh.light_vertices_of(&mesh.elements[e]).map(|l| (l as u32, ElementId::new(e)));
+        let mut corners: Vec<(u32, ElementId)> = (0..mesh.elements.len()).flat_map(corner).collect();
+        corners.par_sort_unstable_by_key(|&(l, e)| (l, e.0));
+        let mut corners = corners.as_slice();
+        let mut site = |(l, vertex): (usize, &LightVertex)| {
+            let (round, rest) = corners.split_at(corners.partition_point(|&(of, _)| of == l as u32));
+            corners = rest;
+            self.beside(mesh, vertex, round.iter().map(|&(_, e)| e), l as u32)
         };
-        sum_of_centroids.iter().enumerate().map(site).collect()
+        mesh.light_vertices.iter().enumerate().map(&mut site).collect()
     }
 
-    /// The viewpoint of a light vertex, a little towards the middle of the elements round it.
+    /// The viewpoint of a light vertex: a little towards the middle of the elements round it, and above all of them.
     #[must_use]
-    pub fn beside(&self, vertex: &LightVertex, middle: Vec3, seed: u32) -> Viewpoint {
+    pub fn beside(
+        &self,
+        mesh: &PatchMesh,
+        vertex: &LightVertex,
+        round: impl Iterator<Item = ElementId> + Clone,
+        seed: u32,
+    ) -> Viewpoint {
+        let elements = || round.clone().map(|e| &mesh.elements[e.index()]);
+        let num_elements = elements().count().max(1) as f32;
+        let to_middle = elements().map(|element| mesh.centroid(element) - vertex.position).sum::<Vec3>() / num_elements;
         // Only sideways: on a curved surface the middle lies below the tangent plane.
-        let sideways = (middle - vertex.position).reject_from(vertex.normal);
-        self.viewpoint(vertex.position + INSET * sideways, vertex.normal, seed)
+        let sideways = INSET * to_middle.reject_from(vertex.normal);
+        // A shading normal may lean away from the surface: what went sideways is then below it.
+        let depth = |element: &Element| {
+            let normal = normal_of(mesh.corners(element));
+            let cosine = normal.dot(vertex.normal);
+            if cosine > STEEPEST { -sideways.dot(normal) / cosine } else { 0.0 }
+        };
+        let lift = elements().map(depth).fold(0.0, f32::max);
+        self.viewpoint(vertex.position + sideways + lift * vertex.normal, vertex.normal, seed)
     }
 
     /// `num_points` viewpoints on each element, side by side, with its geometric normal.

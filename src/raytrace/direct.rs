@@ -28,28 +28,56 @@ impl Passing {
 
 impl PathTracer<'_> {
     /// Radiance towards the viewer of light straight from the lights: from every punctual one, and from one place on an
-    /// emissive triangle.
+    /// emissive triangle; without the share of lamps in glossy metal that falls to rays which follow it.
     pub(super) fn direct(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
         let place = self.above(surface.position, surface.geometric);
         let punctual: Vec3 = self.lights.punctual(place).map(|arrival| self.reflected(surface, place, &arrival)).sum();
-        punctual + self.reflected_of_emitters(surface, place, |_| 0.0, sampler)
+        punctual
+            + self.reflected_of_emitters(surface, place, |direction| [0.0, surface.glossy_density(direction)], sampler)
     }
 
-    /// As [`Self::direct`], from one of the punctual lights, and without the share of the emissive triangles that falls to
-    /// the path.
-    pub(super) fn direct_beside_path(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+    /// As [`Self::direct`], from one of the punctual lights, and without the shares of light that fall to other ways to find
+    /// it, where `surface` was met by `ray` at `distance`.
+    pub(super) fn direct_beside_path(
+        &self,
+        surface: &Surface,
+        ray: &Ray,
+        distance: f32,
+        sampler: &mut Sampler,
+    ) -> Vec3 {
         let place = self.above(surface.position, surface.geometric);
         let mut radiance = Vec3::ZERO;
         if self.lights.has_punctual()
-            && let Some((arrival, probability)) = self.lights.choose_punctual(place, surface.normal, sampler)
+            && let Some((light, arrival, probability)) = self.lights.choose_punctual(place, surface.normal, sampler)
         {
-            radiance += self.reflected(surface, place, &arrival) / probability;
+            let unhidden = self.unhidden(surface, &arrival);
+            if unhidden != Vec3::ZERO {
+                let passing = self.passing(place, arrival.to_light, arrival.distance);
+                let share = match ray.chance {
+                    Chance::Among { density, .. } if !passing.has_pane => {
+                        let connected = self.beams.density(light, &arrival, surface, distance);
+                        power_heuristic(density * probability, connected)
+                    }
+                    _ => 1.0,
+                };
+                radiance += unhidden * passing.share * (share / probability);
+            }
         }
-        radiance + self.reflected_of_emitters(surface, place, |direction| surface.diffuse_density(direction), sampler)
+        let densities = |direction| [surface.diffuse_density(direction), surface.scattered_glossy_density(direction)];
+        radiance + self.reflected_of_emitters(surface, place, densities, sampler)
     }
 
     /// Radiance towards the viewer of a punctual light, with its highlight and its shadow.
     fn reflected(&self, surface: &Surface, place: Vec3, arrival: &Arrival) -> Vec3 {
+        let unhidden = self.unhidden(surface, arrival);
+        if unhidden == Vec3::ZERO {
+            return Vec3::ZERO;
+        }
+        unhidden * self.passing(place, arrival.to_light, arrival.distance).share
+    }
+
+    /// Radiance towards the viewer of a punctual light, with its highlight, if nothing stood between.
+    pub(super) fn unhidden(&self, surface: &Surface, arrival: &Arrival) -> Vec3 {
         let cosine = surface.normal.dot(arrival.to_light);
         if cosine <= 0.0 || arrival.to_light.dot(surface.geometric) <= 0.0 {
             return Vec3::ZERO;
@@ -58,26 +86,37 @@ impl PathTracer<'_> {
         if let Some(specular) = &surface.specular {
             share += specular.highlight(surface.to_viewer, arrival.to_light);
         }
-        let unhidden = share * arrival.irradiance;
-        if unhidden == Vec3::ZERO {
-            return Vec3::ZERO;
-        }
-        unhidden * self.passing(place, arrival.to_light, arrival.distance).share
+        share * arrival.irradiance
     }
 
-    /// Radiance towards the viewer of the emissive triangles, reflected diffusely.
+    /// Radiance towards the viewer of the emissive triangles, reflected diffusely and in glossy metal, without the shares
+    /// that fall to rays followed either way, whose directions have the `path_densities`.
     fn reflected_of_emitters(
         &self,
         surface: &Surface,
         place: Vec3,
-        path_density: impl Fn(Vec3) -> f32,
+        path_densities: impl Fn(Vec3) -> [f32; 2],
         sampler: &mut Sampler,
     ) -> Vec3 {
-        if !self.lights.has_emitters() || surface.reflectance == Vec3::ZERO {
+        let is_glossy = surface.specular.as_ref().is_some_and(|specular| !specular.is_perfect());
+        if !self.lights.has_emitters() || surface.reflectance == Vec3::ZERO && !is_glossy {
             return Vec3::ZERO;
         }
-        let irradiance = self.emitter_irradiance(place, surface.normal, surface.geometric, path_density, sampler);
-        surface.reflectance * FRAC_1_PI * irradiance
+        let Some((sample, passing)) = self.emitter_sample(place, surface.normal, surface.geometric, sampler) else {
+            return Vec3::ZERO;
+        };
+        let [diffuse, glossy] = path_densities(sample.direction);
+        // Paths leave what comes through panes to the aimed rays, and reflections in metal keep it.
+        let [to_diffuse, to_glossy] = if passing.has_pane {
+            [1.0, 0.0]
+        } else {
+            [diffuse, glossy].map(|path| power_heuristic(sample.density, path))
+        };
+        let mut reflected = surface.reflectance * (FRAC_1_PI * surface.normal.dot(sample.direction) * to_diffuse);
+        if let Some(specular) = surface.specular.as_ref().filter(|_| is_glossy) {
+            reflected += specular.highlight(surface.to_viewer, sample.direction) * to_glossy;
+        }
+        reflected * sample.radiance * passing.share / sample.density
     }
 
     /// Irradiance from the emissive triangles on a surface with this shading normal and this geometric one, by one sample,

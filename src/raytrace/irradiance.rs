@@ -1,5 +1,6 @@
 //! Reference irradiance at given points, with standard errors.
 
+use std::f32::consts::{FRAC_1_PI, PI};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::Vec3;
@@ -120,19 +121,23 @@ impl Place {
 
     /// One estimate of the irradiance straight from emissive surfaces, and of the indirect one.
     fn sample(&self, paths: &PathTracer<'_>, sampler: &mut Sampler) -> (Vec3, Vec3) {
-        let density = |direction: Vec3| self.normal.dot(direction).max(0.0) * std::f32::consts::FRAC_1_PI;
+        let density = |direction: Vec3| self.normal.dot(direction).max(0.0) * FRAC_1_PI;
         let mut direct = Vec3::ZERO;
         if paths.lights.has_emitters() {
             direct += paths.emitter_irradiance(self.origin, self.normal, self.geometric, density, sampler);
         }
+        let mut indirect = Vec3::ZERO;
+        if paths.connects_at(0) {
+            indirect += paths.connected_irradiance(self.origin, self.normal, self.geometric, density, sampler);
+        }
         let direction = cosine_hemisphere(self.normal, sampler.square());
         if direction.dot(self.geometric) <= 0.0 {
-            return (direct, Vec3::ZERO);
+            return (direct, indirect);
         }
         let chance = Chance::Among { normal: self.normal, density: density(direction) };
         let light = paths.arriving(Ray { origin: self.origin, direction, chance }, sampler);
         // The cosine and its density leave a factor of pi.
-        (direct + light.emitted * std::f32::consts::PI, light.reflected * std::f32::consts::PI)
+        (direct + light.emitted * PI, indirect + light.reflected * PI)
     }
 
     /// Irradiance from punctual lights, without chance.

@@ -1,31 +1,18 @@
 //! Which of many lamps to ask: a hierarchy of emissive triangles, gone down towards those that may bring most light.
 //!
-//! Source: Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting"; the bounds are
-//! those of Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", section 12.6.3.
-
-use std::f32::consts::{PI, TAU};
+//! Among lamps that are as one, only power decides: a bake cuts every lamp into small triangles.
+//!
+//! Source: Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting".
 
 use glam::Vec3;
+
+use super::light_bounds::LightBounds;
 
 /// Places where a node may be split, along one axis.
 const NUM_BUCKETS: usize = 12;
 
 /// No parent.
 const ROOT: u32 = u32::MAX;
-
-/// What is known of one lamp or of several together.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LightBounds {
-    low: Vec3,
-    high: Vec3,
-    /// Luminous power.
-    power: f32,
-    /// The emitting normals lie in a cone round this axis.
-    axis: Vec3,
-    /// Cosine of the half angle of that cone.
-    cos_spread: f32,
-    is_two_sided: bool,
-}
 
 /// A hierarchy of lamps; they are known by their number in the list it was built from.
 pub(super) struct LightTree {
@@ -43,107 +30,6 @@ struct Node {
 enum Below {
     Lamp(u32),
     Children([u32; 2]),
-}
-
-impl LightBounds {
-    /// Bounds of an emissive triangle of some power.
-    pub(super) fn of_triangle(corners: [Vec3; 3], normal: Vec3, power: f32, is_two_sided: bool) -> Self {
-        let [a, b, c] = corners;
-        Self { low: a.min(b).min(c), high: a.max(b).max(c), power, axis: normal, cos_spread: 1.0, is_two_sided }
-    }
-
-    fn centre(&self) -> Vec3 {
-        0.5 * (self.low + self.high)
-    }
-
-    fn union(self, other: Self) -> Self {
-        let (axis, cos_spread) = cone_round((self.axis, self.cos_spread), (other.axis, other.cos_spread));
-        Self {
-            low: self.low.min(other.low),
-            high: self.high.max(other.high),
-            power: self.power + other.power,
-            axis,
-            cos_spread,
-            is_two_sided: self.is_two_sided || other.is_two_sided,
-        }
-    }
-
-    /// About how much light arrives at a point of a surface with this normal; 0 only where none can.
-    fn importance(&self, point: Vec3, normal: Vec3) -> f32 {
-        let offset = point - self.centre();
-        let radius_squared = 0.25 * (self.high - self.low).length_squared();
-        let distance_squared = offset.length_squared();
-        let direction = offset / distance_squared.sqrt().max(f32::MIN_POSITIVE);
-        // Half angle under which the point sees the box.
-        let bound = Angle::from_cos(if distance_squared <= radius_squared {
-            -1.0
-        } else {
-            (1.0 - radius_squared / distance_squared).sqrt()
-        });
-        let cos_out = self.axis.dot(direction);
-        let out = Angle::from_cos(if self.is_two_sided { cos_out.abs() } else { cos_out });
-        let cos_emitter = out.less(Angle::from_cos(self.cos_spread)).less(bound).cos;
-        let cos_receiver = Angle::from_cos(-normal.dot(direction)).less(bound).cos;
-        if cos_emitter <= 0.0 || cos_receiver <= 0.0 {
-            return 0.0;
-        }
-        // Within the box a distance says nothing.
-        self.power * cos_emitter * cos_receiver / distance_squared.max(radius_squared).max(f32::MIN_POSITIVE)
-    }
-
-    /// Cost of a node: power x directions x places (Conty Estevez and Kulla, section 4.4).
-    fn cost(&self) -> f32 {
-        let spread = self.cos_spread.clamp(-1.0, 1.0).acos();
-        let end = (spread + 0.5 * PI).min(PI);
-        let (sin, cos) = spread.sin_cos();
-        let directions =
-            TAU * (1.0 - cos) + 0.5 * PI * (2.0 * end * sin - (spread - 2.0 * end).cos() - 2.0 * spread * sin + cos);
-        let size = self.high - self.low;
-        let area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-        // A flat or thin box has a size all the same.
-        self.power * directions * (area + 1e-3 * size.length_squared())
-    }
-}
-
-/// An angle in 0..pi.
-#[derive(Clone, Copy)]
-struct Angle {
-    cos: f32,
-    sin: f32,
-}
-
-impl Angle {
-    fn from_cos(cos: f32) -> Self {
-        let cos = cos.clamp(-1.0, 1.0);
-        Self { cos, sin: (1.0 - cos * cos).sqrt() }
-    }
-
-    /// What is left after `other` is taken away, at least 0.
-    fn less(self, other: Self) -> Self {
-        if self.cos > other.cos {
-            return Self { cos: 1.0, sin: 0.0 };
-        }
-        Self { cos: self.cos * other.cos + self.sin * other.sin, sin: self.sin * other.cos - self.cos * other.sin }
-    }
-}
-
-/// The smallest cone (axis, cosine of the half angle) round two.
-fn cone_round(a: (Vec3, f32), b: (Vec3, f32)) -> (Vec3, f32) {
-    let (spread_a, spread_b) = (a.1.clamp(-1.0, 1.0).acos(), b.1.clamp(-1.0, 1.0).acos());
-    let between = a.0.dot(b.0).clamp(-1.0, 1.0).acos();
-    if between + spread_b <= spread_a {
-        return a;
-    }
-    if between + spread_a <= spread_b {
-        return b;
-    }
-    let spread = 0.5 * (spread_a + between + spread_b);
-    let turn_axis = a.0.cross(b.0);
-    if spread >= PI || turn_axis.length_squared() < 1e-12 {
-        return (a.0, if between < 0.1 { spread.cos() } else { -1.0 });
-    }
-    let turned = glam::Quat::from_axis_angle(turn_axis.normalize(), spread - spread_a) * a.0;
-    (turned.normalize(), spread.min(PI).cos())
 }
 
 impl LightTree {
@@ -175,36 +61,41 @@ impl LightTree {
 
     /// A lamp that may light `point`, and the probability of its choice; `number` is used up.
     pub(super) fn choose(&self, point: Vec3, normal: Vec3, mut number: f32) -> Option<(usize, f32)> {
-        let mut node = self.nodes.first()?;
+        let mut node = self.nodes.first().filter(|root| root.bounds.importance(point, normal) > 0.0)?;
         let mut probability = 1.0;
-        loop {
-            match node.below {
-                Below::Lamp(lamp) => return Some((lamp as usize, probability)),
-                Below::Children(children) => {
-                    let [left, right] = children.map(|child| &self.nodes[child as usize]);
-                    let share = left_share(left, right, point, normal)?;
-                    if number < share {
-                        (node, number, probability) = (left, number / share, probability * share);
-                    } else {
-                        let rest = 1.0 - share;
-                        (node, number, probability) = (right, (number - share) / rest, probability * rest);
-                    }
-                }
+        let mut are_as_one = false;
+        while let Below::Children(children) = node.below {
+            are_as_one |= node.bounds.are_as_one(point);
+            let [left, right] = children.map(|child| &self.nodes[child as usize]);
+            let share = if are_as_one { power_share(left, right) } else { left_share(left, right, point, normal)? };
+            if number < share {
+                (node, number, probability) = (left, number / share, probability * share);
+            } else {
+                let rest = 1.0 - share;
+                (node, number, probability) = (right, (number - share) / rest, probability * rest);
             }
         }
+        let Below::Lamp(lamp) = node.below else { unreachable!("the way ends at a lamp") };
+        Some((lamp as usize, probability))
     }
 
     /// The probability with which [`Self::choose`] would choose `lamp`.
     pub(super) fn probability(&self, lamp: usize, point: Vec3, normal: Vec3) -> f32 {
-        let mut at = self.leaf_of[lamp];
-        let mut probability = 1.0;
-        while self.nodes[at as usize].parent != ROOT {
-            let parent = self.nodes[at as usize].parent;
+        if self.nodes[0].bounds.importance(point, normal) <= 0.0 {
+            return 0.0;
+        }
+        let leaf = self.leaf_of[lamp];
+        let above = |at: &u32| Some(self.nodes[*at as usize].parent).filter(|&parent| parent != ROOT);
+        let way_up = || std::iter::successors(Some(leaf), above);
+        // Only power decides from the topmost node on whose lamps are as one.
+        let as_one = way_up().filter(|&at| self.nodes[at as usize].bounds.are_as_one(point)).last().unwrap_or(leaf);
+        let mut probability = self.nodes[leaf as usize].bounds.power / self.nodes[as_one as usize].bounds.power;
+        for at in way_up().skip_while(|&at| at != as_one) {
+            let Some(parent) = above(&at) else { break };
             let Below::Children(children) = self.nodes[parent as usize].below else { break };
             let [left, right] = children.map(|child| &self.nodes[child as usize]);
             let Some(share) = left_share(left, right, point, normal) else { return 0.0 };
             probability *= if children[0] == at { share } else { 1.0 - share };
-            at = parent;
         }
         probability
     }
@@ -214,6 +105,12 @@ impl LightTree {
 fn left_share(left: &Node, right: &Node, point: Vec3, normal: Vec3) -> Option<f32> {
     let [l, r] = [left, right].map(|node| node.bounds.importance(point, normal));
     (l + r > 0.0).then(|| l / (l + r))
+}
+
+/// Probability of the left of two nodes by power alone.
+fn power_share(left: &Node, right: &Node) -> f32 {
+    let [l, r] = [left, right].map(|node| node.bounds.power);
+    l / (l + r)
 }
 
 /// Sorts the lamps so that the first of two cheap halves comes first, and says how many it holds.
@@ -261,23 +158,41 @@ mod tests {
         (0..count).map(lamp).collect()
     }
 
+    /// A lamp on the ceiling as a bake cuts it up.
+    fn cut_lamp() -> Vec<LightBounds> {
+        let at = |x: u32, z: u32| Vec3::new(0.1 * x as f32, 3.0, 0.1 * z as f32);
+        let square = |i: u32| {
+            let (x, z) = (i % 6, i / 6);
+            let corners = [at(x, z), at(x + 1, z), at(x + 1, z + 1)];
+            LightBounds::of_triangle(corners, Vec3::NEG_Y, 0.5 + 0.1 * x as f32, false)
+        };
+        (0..36).map(square).collect()
+    }
+
     #[test]
     fn every_lamp_is_chosen_as_often_as_its_probability_says() {
-        let lamps = lamps(37);
-        let tree = LightTree::new(&lamps);
-        let (point, normal) = (Vec3::new(1.0, 2.0, 0.5), Vec3::new(0.6, 0.0, 0.8));
-        let mut counts = vec![0u32; lamps.len()];
         const TRIES: u32 = 1 << 16;
-        for i in 0..TRIES {
-            // Lamps that bring light only together are none.
-            let Some((lamp, probability)) = tree.choose(point, normal, r2(i, 5).x) else { continue };
-            assert!((tree.probability(lamp, point, normal) / probability - 1.0).abs() < 1e-4);
-            counts[lamp] += 1;
-        }
-        assert!(counts.iter().sum::<u32>() > TRIES / 2);
-        for (lamp, &count) in counts.iter().enumerate() {
-            let expected = tree.probability(lamp, point, normal) * TRIES as f32;
-            assert!((count as f32 - expected).abs() < 0.02 * expected + 8.0, "{lamp}: {count} for {expected}");
+        let normal = Vec3::new(0.6, 0.0, 0.8);
+        let places = [
+            (lamps(37), Vec3::new(1.0, 2.0, 0.5), normal),
+            (cut_lamp(), Vec3::new(0.4, 2.5, 0.2), Vec3::Y),
+            (cut_lamp(), Vec3::new(1.0, 1.0, 0.5), Vec3::Y),
+            (cut_lamp(), Vec3::new(0.0, -4.0, 0.5), Vec3::Y),
+        ];
+        for (lamps, point, normal) in places {
+            let tree = LightTree::new(&lamps);
+            let mut counts = vec![0u32; lamps.len()];
+            for i in 0..TRIES {
+                // Lamps that bring light only together are none.
+                let Some((lamp, probability)) = tree.choose(point, normal, r2(i, 5).x) else { continue };
+                assert!((tree.probability(lamp, point, normal) / probability - 1.0).abs() < 1e-4);
+                counts[lamp] += 1;
+            }
+            assert!(counts.iter().sum::<u32>() > TRIES / 2);
+            for (lamp, &count) in counts.iter().enumerate() {
+                let expected = tree.probability(lamp, point, normal) * TRIES as f32;
+                assert!((count as f32 - expected).abs() < 0.02 * expected + 8.0, "{lamp}: {count} for {expected}");
+            }
         }
     }
 

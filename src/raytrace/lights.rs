@@ -4,7 +4,8 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
-use super::light_tree::{LightBounds, LightTree};
+use super::light_bounds::LightBounds;
+use super::light_tree::LightTree;
 use super::sampler::Sampler;
 use crate::base::colour::luminance;
 use crate::base::ids::TriangleId;
@@ -151,27 +152,38 @@ impl<'a> Lights<'a> {
         self.tree.probability(number, place, normal) * distance * distance / (emitter.area * cosine)
     }
 
-    /// One of the punctual lights, chosen by what it would bring if nothing stood between, and the probability of the
-    /// choice.
-    pub(super) fn choose_punctual(&self, place: Vec3, normal: Vec3, sampler: &mut Sampler) -> Option<(Arrival, f32)> {
+    /// One of the punctual lights (its number and what it would bring if nothing stood between), chosen by what it brings,
+    /// and the probability of the choice.
+    pub(super) fn choose_punctual(
+        &self,
+        place: Vec3,
+        normal: Vec3,
+        sampler: &mut Sampler,
+    ) -> Option<(usize, Arrival, f32)> {
         let mut number = sampler.number();
         let mut chosen = None;
         let mut whole = 0.0;
         // Weighted reservoir of one; the number is stretched again after each decision.
-        for arrival in self.punctual(place) {
-            let weight = luminance(arrival.irradiance) * normal.dot(arrival.to_light).max(0.0);
+        for (light, arrival) in self.punctual(place).enumerate() {
+            let weight = weight(&arrival, normal);
             if weight <= 0.0 {
                 continue;
             }
             whole += weight;
             let share = weight / whole;
             if number < share {
-                (chosen, number) = (Some((arrival, weight)), number / share);
+                (chosen, number) = (Some((light, arrival, weight)), number / share);
             } else {
                 number = (number - share) / (1.0 - share);
             }
         }
-        chosen.map(|(arrival, weight)| (arrival, weight / whole))
+        chosen.map(|(light, arrival, weight)| (light, arrival, weight / whole))
+    }
+
+    /// The probability with which [`Self::choose_punctual`] would choose `light`.
+    pub(super) fn punctual_probability(&self, light: usize, place: Vec3, normal: Vec3) -> f32 {
+        let weights = || self.punctual(place).map(|arrival| weight(&arrival, normal));
+        weights().nth(light).map_or(0.0, |weight| weight / weights().sum::<f32>().max(f32::MIN_POSITIVE))
     }
 
     /// What all punctual lights would bring if nothing stood between.
@@ -196,6 +208,11 @@ impl Emitter {
         let cosine = self.normal.dot(away);
         if self.is_two_sided { cosine.abs() } else { cosine.max(0.0) }
     }
+}
+
+/// Luminance that arrives on a surface.
+fn weight(arrival: &Arrival, normal: Vec3) -> f32 {
+    luminance(arrival.irradiance) * normal.dot(arrival.to_light).max(0.0)
 }
 
 /// Mean luminance that a triangle emits.

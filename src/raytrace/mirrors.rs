@@ -18,6 +18,8 @@ pub(super) struct Trail {
     pub num_mirrors: u32,
     /// One of them was no pane that was passed straight.
     pub is_reflected: bool,
+    /// Share of what the surface emits that lamps were not aimed at for.
+    pub emission_share: f32,
 }
 
 /// Visits the surfaces that a ray meets, the first and those behind mirrors, and says how many there were. `prepare` may
@@ -29,18 +31,23 @@ pub(super) fn follow(
     prepare: impl Fn(&mut Surface),
     mut visit: impl FnMut(&Surface, &Trail, &mut Sampler),
 ) -> u32 {
-    let mut trail = Trail { throughput: Vec3::ONE, num_mirrors: 0, is_reflected: false };
+    let mut trail = Trail { throughput: Vec3::ONE, num_mirrors: 0, is_reflected: false, emission_share: 1.0 };
     while trail.num_mirrors <= MAX_MIRRORS {
         let Some(hit) = rays.meet(&ray, sampler) else { return trail.num_mirrors };
         let mut surface = Surface::at(rays.scene(), &ray, &hit, true);
         prepare(&mut surface);
+        trail.emission_share = if surface.emission == Vec3::ZERO { 1.0 } else { rays.path_share(&ray, &hit) };
         visit(&surface, &trail, sampler);
         trail.num_mirrors += 1;
         let Some(specular) = &surface.specular else { break };
         let Some(way) = specular.scatter(surface.to_viewer, surface.geometric, sampler) else { break };
         trail.throughput *= way.share;
         trail.is_reflected |= !way.is_straight;
-        let chance = if way.is_straight { ray.chance } else { Chance::Only };
+        let chance = if way.is_straight {
+            ray.chance.behind_pane()
+        } else {
+            Chance::reflected(surface.normal, specular.density(surface.to_viewer, way.direction))
+        };
         ray = rays.onward(&surface, way.direction, chance);
     }
     trail.num_mirrors

@@ -6,10 +6,12 @@
 //! absent: the GPU, exposure and tone mapping (a picture here is linear radiance), light of punctual lights that a mirror
 //! throws.
 
+mod connection;
 mod direct;
 mod film;
 mod gather;
 mod irradiance;
+mod light_bounds;
 mod light_tree;
 mod lights;
 mod mirrors;

@@ -1,14 +1,18 @@
 //! Path tracing: unbiased light along a ray, the truth that the other methods are judged by.
 //!
-//! At every diffuse surface light is sampled twice: at the lamps (next-event estimation) and by the path itself; each
+//! At every diffuse or glossy surface light is sampled twice: at the lamps (next-event estimation) and by the path itself; each
 //! lamp's light is shared between the two by the power heuristic. Punctual lights can only be aimed at, also through
-//! panes; mirrors can only be followed: what a mirror throws of a punctual light is left out.
+//! panes, or followed to what is close to them; mirrors can only be followed: what a mirror throws of a punctual light is
+//! left out.
 //!
 //! Sources: Kajiya 1986, "The Rendering Equation"; Veach 1997, "Robust Monte Carlo Methods for Light Transport
 //! Simulation", chapter 9.
 
+use std::f32::consts::FRAC_1_PI;
+
 use glam::Vec3;
 
+use super::connection::Beams;
 use super::lights::Lights;
 use super::sampler::Sampler;
 use super::surface::{Surface, Way};
@@ -27,8 +31,9 @@ const MIN_BOUNCES: u32 = 4;
 pub(super) struct PathTracer<'a> {
     pub tracer: &'a Tracer<'a>,
     pub lights: Lights<'a>,
+    pub beams: Beams,
     max_bounces: u32,
-    has_specular: bool,
+    pub has_specular: bool,
     pub has_panes: bool,
     height: f32,
     has_blending: bool,
@@ -52,6 +57,8 @@ pub(super) enum Chance {
     Only,
     /// Lamps are sampled too, from a surface with this normal; density per steradian.
     Among { normal: Vec3, density: f32 },
+    /// As [`Chance::Among`], by a reflection in metal: the eye sees through it.
+    Glossy { normal: Vec3, density: f32 },
     /// It goes on through a pane from a surface that has looked for lamps behind panes itself.
     Aimed,
 }
@@ -66,10 +73,17 @@ pub(super) struct Arriving {
 }
 
 impl Chance {
+    /// The chance of a ray reflected in metal, in a direction of some density.
+    pub(super) fn reflected(normal: Vec3, density: f32) -> Self {
+        if density > 0.0 { Chance::Glossy { normal, density } } else { Chance::Only }
+    }
+
     /// The chance of a ray that has passed a pane.
     pub(super) fn behind_pane(self) -> Self {
         match self {
             Chance::Among { .. } => Chance::Aimed,
+            // What comes through panes is not aimed at for metal.
+            Chance::Glossy { .. } => Chance::Only,
             other => other,
         }
     }
@@ -82,6 +96,7 @@ impl<'a> PathTracer<'a> {
         Self {
             tracer,
             lights: Lights::new(scene),
+            beams: Beams::new(scene),
             max_bounces,
             has_specular,
             has_panes: has_specular && scene.materials.iter().any(|material| material.transmission > 0.0),
@@ -152,12 +167,15 @@ impl<'a> PathTracer<'a> {
             if bounce == self.max_bounces {
                 break;
             }
-            light.reflected += throughput * self.direct_beside_path(&surface, sampler);
+            light.reflected += throughput * self.direct_beside_path(&surface, &ray, hit.distance, sampler);
+            if self.connects_at(bounce + 1) && surface.reflectance != Vec3::ZERO {
+                light.reflected += throughput * self.connected(&surface, sampler);
+            }
             let Some(scattered) = surface.scatter(sampler) else { break };
             throughput *= scattered.throughput;
             let chance = match scattered.way {
                 Way::Diffuse { density } => Chance::Among { normal: surface.normal, density },
-                Way::Reflected => Chance::Only,
+                Way::Reflected { density } => Chance::reflected(surface.normal, density),
                 Way::Passed => ray.chance.behind_pane(),
             };
             ray = self.onward(&surface, scattered.direction, chance);
@@ -168,6 +186,19 @@ impl<'a> PathTracer<'a> {
             met = self.meet(&ray, sampler);
         }
         light
+    }
+
+    /// Light of punctual lights is looked for that the surface at a bounce would reflect.
+    pub(super) fn connects_at(&self, bounce: u32) -> bool {
+        !self.beams.is_empty() && bounce < self.max_bounces
+    }
+
+    /// Radiance towards the viewer that a surface reflects diffusely of the light that punctual lights throw on another.
+    fn connected(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
+        let place = self.above(surface.position, surface.geometric);
+        let density = |direction| surface.diffuse_density(direction);
+        let irradiance = self.connected_irradiance(place, surface.normal, surface.geometric, density, sampler);
+        surface.reflectance * FRAC_1_PI * irradiance
     }
 
     /// The ray that goes on from a surface.
@@ -181,7 +212,7 @@ impl<'a> PathTracer<'a> {
         match ray.chance {
             Chance::Eye | Chance::Only => 1.0,
             Chance::Aimed => 0.0,
-            Chance::Among { normal, density } => {
+            Chance::Among { normal, density } | Chance::Glossy { normal, density } => {
                 let at_lamps = self.lights.density(ray.origin, normal, ray.direction, hit.triangle, hit.distance);
                 power_heuristic(density, at_lamps)
             }

@@ -118,8 +118,20 @@ impl Specular {
         if direction.dot(geometric) > 0.0 { direction } else { reflect(to_viewer, geometric) }
     }
 
+    /// Density per steradian with which [`Self::scatter`] takes a direction; 0 of a mirror or a pane.
+    pub(super) fn density(&self, to_viewer: Vec3, direction: Vec3) -> f32 {
+        let (cos_out, cos_in) = (self.normal.dot(to_viewer), self.normal.dot(direction));
+        match self.kind {
+            Kind::Metal { alpha, .. } if alpha >= MIRROR_ALPHA && cos_in > 0.0 && cos_out > 0.0 => {
+                let facet = (to_viewer + direction).normalize();
+                facet_density(self.normal.dot(facet), alpha) / ((1.0 + hidden(cos_out, alpha)) * 4.0 * cos_out)
+            }
+            _ => 0.0,
+        }
+    }
+
     /// Radiance towards the viewer under unit irradiance on a surface across `to_light`, times the cosine: the highlight
-    /// of a punctual light, which no ray meets. None of a mirror's or a pane's.
+    /// of a light that is aimed at. None of a mirror's or a pane's.
     pub(super) fn highlight(&self, to_viewer: Vec3, to_light: Vec3) -> Vec3 {
         let (cos_out, cos_in) = (self.normal.dot(to_viewer), self.normal.dot(to_light));
         match self.kind {
@@ -218,6 +230,25 @@ mod tests {
             let lit = (0..COUNT).map(lit).sum::<Vec3>() / COUNT as f32;
             assert!((followed / lit - 1.0).abs().max_element() < 0.02, "{alpha}: {followed} and {lit}");
             assert!((followed.x - share).abs() < 5e-3, "{alpha}: {followed}");
+        }
+    }
+
+    #[test]
+    fn directions_are_as_dense_as_stated() {
+        const COUNT: u32 = 1 << 16;
+        for (alpha, to_viewer) in [(0.3, Vec3::new(0.6, 0.0, 0.8)), (0.8, Vec3::new(0.0, -0.8, 0.6)), (0.1, Vec3::Z)] {
+            let metal = metal(alpha);
+            // A share of all directions and a mean cosine, counted and integrated.
+            let way = |index| metal.scatter(to_viewer, Vec3::Z, &mut Sampler::new(3, index));
+            let ways = (0..COUNT).filter_map(way).map(|way| Vec3::new(1.0, way.direction.x, way.direction.z));
+            let counted = ways.sum::<Vec3>() / COUNT as f32;
+            let integrand = |index| {
+                let direction = cosine_hemisphere(Vec3::Z, r2(index, 1));
+                let density = metal.density(to_viewer, direction) / (direction.z.max(1e-6) * FRAC_1_PI);
+                density * Vec3::new(1.0, direction.x, direction.z)
+            };
+            let integrated = (0..COUNT).map(integrand).sum::<Vec3>() / COUNT as f32;
+            assert!((counted - integrated).abs().max_element() < 0.01, "{alpha}: {counted} and {integrated}");
         }
     }
 

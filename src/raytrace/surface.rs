@@ -52,8 +52,8 @@ pub(super) struct Scattered {
 pub(super) enum Way {
     /// Diffuse reflection, whose direct light is sampled apart too; density of the direction per steradian.
     Diffuse { density: f32 },
-    /// A mirror, glossy metal, or the surface of a pane.
-    Reflected,
+    /// A mirror, glossy metal, or the surface of a pane; density of the direction per steradian, 0 where it is the only one.
+    Reflected { density: f32 },
     /// A pane, straight on.
     Passed,
 }
@@ -120,6 +120,16 @@ impl Surface {
         self.diffuse_share() * self.normal.dot(direction).max(0.0) * FRAC_1_PI
     }
 
+    /// Density per steradian with which its metal, where it is followed, reflects into a direction; 0 of a mirror.
+    pub(super) fn glossy_density(&self, direction: Vec3) -> f32 {
+        self.specular.as_ref().map_or(0.0, |specular| specular.density(self.to_viewer, direction))
+    }
+
+    /// As [`Self::diffuse_density`], for [`Self::scatter`]'s reflections in its metal.
+    pub(super) fn scattered_glossy_density(&self, direction: Vec3) -> f32 {
+        self.glossy_density(direction) * (1.0 - self.diffuse_share())
+    }
+
     /// A way on, or none where all light is absorbed.
     pub(super) fn scatter(&self, sampler: &mut Sampler) -> Option<Scattered> {
         let diffuse_share = self.diffuse_share();
@@ -140,7 +150,8 @@ impl Surface {
         let specular = self.specular.as_ref()?;
         let SpecularWay { direction, share, is_straight } =
             specular.scatter(self.to_viewer, self.geometric, sampler)?;
-        let way = if is_straight { Way::Passed } else { Way::Reflected };
+        let density = self.glossy_density(direction) * (1.0 - diffuse_share);
+        let way = if is_straight { Way::Passed } else { Way::Reflected { density } };
         Some(Scattered { direction, throughput: share / (1.0 - diffuse_share), way })
     }
 

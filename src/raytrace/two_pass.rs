@@ -82,9 +82,15 @@ impl<'a> SecondPass<'a> {
         let mut radiance = Vec3::ZERO;
         let prepare = |surface: &mut Surface| self.simplify(surface);
         let num_met = follow(&self.rays, ray, sampler, prepare, |surface, trail, sampler| {
-            radiance += trail.throughput * (surface.emission + self.reflected(surface, sampler));
+            let emission_share = if self.traces_lights() { trail.emission_share } else { 1.0 };
+            radiance += trail.throughput * (surface.emission * emission_share + self.reflected(surface, sampler));
         });
         (num_met > 0).then_some(radiance)
+    }
+
+    /// Lights are aimed at.
+    fn traces_lights(&self) -> bool {
+        self.settings.ambient != Ambient::All
     }
 
     /// Whitted's metal is a mirror or nothing.

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::photometry::Profile;
 use crate::base::ids::GroupId;
 
 /// A punctual light placed in the world.
@@ -11,10 +12,12 @@ pub struct Light {
     pub name: String,
     /// Kind and place.
     pub kind: LightKind,
-    /// Colour times intensity per channel: candela for point and spot, lux for directional.
+    /// Colour times intensity per channel: candela for point and spot, lux for directional; the largest of a [`Profile`].
     pub intensity: Vec3,
     /// Distance at which it ends, metres; none means never.
     pub range: Option<f32>,
+    /// How a point light's intensity depends on direction; none is the same everywhere.
+    pub profile: Option<Profile>,
     /// The group that dims it.
     pub group: GroupId,
 }
@@ -59,14 +62,16 @@ pub struct Arrival {
 impl Light {
     /// Unoccluded arrival at `point`, before the receiver's cosine.
     ///
-    /// Equation: E = I / r^2 x cone x window, with the cone and range formulas of KHR_lights_punctual.
+    /// Equation: E = I / r^2 x (cone or share of a photometric table) x window, with the cone and range formulas of KHR_lights_punctual.
     #[must_use]
     pub fn arrival(&self, point: Vec3) -> Arrival {
         match self.kind {
             LightKind::Directional { direction } => {
                 Arrival { to_light: -direction, distance: f32::INFINITY, irradiance: self.intensity }
             }
-            LightKind::Point { position } => self.arrival_from(position, point, |_| 1.0),
+            LightKind::Point { position } => self.arrival_from(position, point, |to_light| {
+                self.profile.as_ref().map_or(1.0, |profile| profile.share(-to_light))
+            }),
             LightKind::Spot { position, direction, inner_angle, outer_angle } => {
                 self.arrival_from(position, point, |to_light| {
                     let cos_outer = outer_angle.cos();

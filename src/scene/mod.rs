@@ -1,8 +1,8 @@
 //! Floor 1: the scene as the rest of the program sees it: world-space triangles, materials, lights, cameras.
 //!
 //! A [`Scene`] is validated when it is made ([`gltf::load`]): all numbers are finite and all indices in range, so no
-//! later stage checks again. Deliberately absent: the node tree (transforms are applied on loading) and anything of
-//! the GPU.
+//! later stage checks again. Deliberately absent: work with the node tree (transforms are applied on loading; it is kept for
+//! bakes) and anything of the GPU.
 
 pub mod builtin;
 pub mod camera;
@@ -10,6 +10,8 @@ pub mod doctor;
 pub mod gltf;
 pub mod light;
 pub mod material;
+pub mod node;
+pub mod photometry;
 
 use std::ops::Range;
 
@@ -18,6 +20,8 @@ use glam::{Vec2, Vec3, Vec4};
 pub use camera::{Camera, Projection};
 pub use light::{Arrival, Light, LightKind};
 pub use material::{AlphaMode, Image, MAX_REFLECTANCE, Material, Sampler, SurfacePoint, Texture, TextureSlot, Wrap};
+pub use node::{NamedNode, Transform};
+pub use photometry::Profile;
 
 use crate::base::ids::{InstanceId, MaterialId, TriangleId};
 
@@ -32,7 +36,7 @@ pub struct Scene {
     pub triangles: Vec<Triangle>,
     /// Placed primitives `[i]`.
     pub instances: Vec<Instance>,
-    /// The file's tree of names, so that a bake can be found one's way in; empty where there is none.
+    /// The file's tree of nodes, parents first; empty where there is none.
     pub nodes: Vec<NamedNode>,
     /// Materials `[m]`.
     pub materials: Vec<Material>,
@@ -87,17 +91,6 @@ pub struct Instance {
     pub name: String,
     /// Its triangles.
     pub triangles: Range<usize>,
-}
-
-/// A node of the file, without its transform, which is applied on loading.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct NamedNode {
-    /// Its name; may be empty.
-    pub name: String,
-    /// The node above it, which comes before it in [`Scene::nodes`].
-    pub parent: Option<usize>,
-    /// What it shows, as a range of [`Scene::instances`].
-    pub instances: Range<usize>,
 }
 
 /// One vector a vertex under a glTF attribute name.

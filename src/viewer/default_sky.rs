@@ -42,6 +42,7 @@ pub fn add(scene: &mut Scene) {
                 kind: LightKind::Directional { direction: -Vec3::new(level * cos, height, level * sin) },
                 intensity: COLOUR * (ILLUMINANCE / (horizontal * luminance(COLOUR))),
                 range: None,
+                profile: None,
                 group,
             });
         }

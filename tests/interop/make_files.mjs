@@ -5,8 +5,10 @@
 // The encoders are those of glTF Transform, Draco, meshoptimizer, sharp and Basis Universal. tests/twins.rs loads every
 // file and holds it against its plain twin.
 
+import { writeFile } from 'node:fs/promises';
+
 import { Accessor, Document, NodeIO } from '@gltf-transform/core';
-import { ALL_EXTENSIONS, EXTMeshGPUInstancing, KHRMaterialsVariants } from '@gltf-transform/extensions';
+import { ALL_EXTENSIONS, EXTMeshGPUInstancing, KHRLightsPunctual, KHRMaterialsVariants } from '@gltf-transform/extensions';
 import { draco, meshopt, quantize, textureCompress } from '@gltf-transform/functions';
 import draco3d from 'draco3dgltf';
 import { ktx2 } from 'ktx2-encoder/gltf-transform';
@@ -233,4 +235,37 @@ await write('instancing', await several(true));
   const document = await plain();
   addCamera(document, document.createScene('empty'), 4);
   await write('two_scenes', document);
+}
+
+// A point of light, and one that a photometric file tells: 40 candela in every direction.
+async function lit() {
+  const document = await plain();
+  const lamp = document.createNode('lamp').setTranslation([1, 3, 2]).setRotation([0.6, 0, 0, 0.8]);
+  document.getRoot().listScenes()[0].addChild(lamp);
+  return { document, lamp };
+}
+{
+  const { document, lamp } = await lit();
+  const light = document.createExtension(KHRLightsPunctual).createLight('lamp').setType('point').setIntensity(40).setColor([1, 0.5, 0.25]);
+  lamp.setExtension('KHR_lights_punctual', light);
+  await write('point_light', document);
+}
+{
+  // glTF Transform does not know the extension: its JSON is added to the file.
+  const { document } = await lit();
+  const glb = Buffer.from(await io.writeBinary(document));
+  const length = glb.readUInt32LE(12);
+  const json = JSON.parse(glb.subarray(20, 20 + length).toString());
+  const table = 'IES:LM-63-2019\nTILT=NONE\n1 -1 2 3 2 1 2 0 0 0\n1 1 10\n0 90 180\n0 90\n20 20 20\n20 20 20\n';
+  const uri = `data:application/x-ies-lm-63;base64,${Buffer.from(table).toString('base64')}`;
+  json.extensionsUsed = ['EXT_lights_ies'];
+  json.extensions = { EXT_lights_ies: { lights: [{ name: 'lamp', uri }] } };
+  const lamp = json.nodes.find(({ name }) => name === 'lamp');
+  lamp.extensions = { EXT_lights_ies: { light: 0, color: [1, 0.5, 0.25] } };
+  let text = Buffer.from(JSON.stringify(json));
+  text = Buffer.concat([text, Buffer.alloc((4 - (text.length % 4)) % 4, ' ')]);
+  const head = Buffer.from(glb.subarray(0, 20));
+  head.writeUInt32LE(text.length, 12);
+  head.writeUInt32LE(glb.length + text.length - length, 8);
+  await writeFile(`${folder}photometric_light.glb`, Buffer.concat([head, text, glb.subarray(20 + length)]));
 }

@@ -35,7 +35,8 @@ impl Stage {
 
     pub fn light(&mut self, kind: LightKind) -> &mut Self {
         let intensity = Vec3::splat(30.0);
-        self.scene.lights = vec![Light { name: String::new(), kind, intensity, range: None, group: GroupId(0) }];
+        self.scene.lights =
+            vec![Light { name: String::new(), kind, intensity, range: None, profile: None, group: GroupId(0) }];
         self
     }
 

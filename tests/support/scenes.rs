@@ -80,7 +80,14 @@ impl SceneBuilder {
     /// A point light of group `group`.
     pub fn point_light(&mut self, position: Vec3, intensity: Vec3, group: u32) {
         let kind = LightKind::Point { position };
-        self.scene.lights.push(Light { name: String::new(), kind, intensity, range: None, group: GroupId(group) });
+        self.scene.lights.push(Light {
+            name: String::new(),
+            kind,
+            intensity,
+            range: None,
+            profile: None,
+            group: GroupId(group),
+        });
     }
 
     /// The scene, with `num_groups` light groups.

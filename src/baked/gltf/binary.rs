@@ -62,9 +62,9 @@ impl Binary {
         }))
     }
 
-    /// Adds an encoded image and returns its buffer view.
-    pub(super) fn push_image(&mut self, encoded: &[u8]) -> usize {
-        self.push_view(encoded, None)
+    /// Adds the bytes of a file, such as an image, and returns its buffer view.
+    pub(super) fn push_file(&mut self, bytes: &[u8]) -> usize {
+        self.push_view(bytes, None)
     }
 
     fn push_view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {

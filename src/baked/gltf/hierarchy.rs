@@ -1,8 +1,15 @@
-//! The tree of names that a bake keeps: nodes that show triangles, and those above them.
+//! The tree of nodes that a bake keeps, with their transforms: other programs find each mesh, light and camera where it was.
 
 use std::ops::Range;
 
-use crate::scene::Scene;
+use glam::{DAffine3, DMat3, Vec3};
+use serde_json::{Value, json};
+
+use super::named;
+use crate::scene::{Instance, Scene, Transform};
+
+/// Volume that a transform leaves of a cube as large as its longest axis, below which it flattens things.
+const FLAT: f64 = 1e-9;
 
 /// A node that is written.
 pub(super) struct Branch {
@@ -11,33 +18,109 @@ pub(super) struct Branch {
     pub parent: Option<usize>,
     /// Its triangles, a range of the scene's; empty for a mere name.
     pub triangles: Range<usize>,
+    /// The light that it carries.
+    pub light: Option<usize>,
+    /// The camera that it carries.
+    pub camera: Option<usize>,
+    pub space: Space,
+    transform: Transform,
+}
+
+/// The space in which a node tells its mesh.
+#[derive(Clone, Copy)]
+pub(super) struct Space {
+    world_from_node: DAffine3,
+    node_from_world: DAffine3,
 }
 
 /// The branches of a scene; without a tree, every instance is one.
 pub(super) fn branches(scene: &Scene) -> Vec<Branch> {
     if scene.nodes.is_empty() {
         let shown = scene.instances.iter().filter(|instance| !instance.triangles.is_empty());
-        let branch = |instance: &crate::scene::Instance| Branch {
+        return shown.map(Branch::of_instance).collect();
+    }
+    let mut branches: Vec<Branch> = Vec::with_capacity(scene.nodes.len());
+    let mut world_from_nodes: Vec<DAffine3> = Vec::with_capacity(scene.nodes.len());
+    for (n, node) in scene.nodes.iter().enumerate() {
+        let above = node.parent.map_or(DAffine3::IDENTITY, |parent| world_from_nodes[parent]);
+        let world_from_node = above * node.transform.parent_from_node();
+        world_from_nodes.push(world_from_node);
+        let is_kept = is_invertible(world_from_node.matrix3);
+        // What flattens its mesh cannot be undone: such a node is brought back to the world, and all below it too.
+        let written_above = node.parent.map_or(Space::WORLD, |parent| branches[parent].space);
+        let transform = if is_kept { node.transform } else { Transform::from_affine(written_above.node_from_world) };
+        branches.push(Branch {
+            name: name_of(scene, n),
+            parent: node.parent,
+            triangles: triangles_of(scene, &node.instances),
+            light: node.light.filter(|_| is_kept),
+            camera: node.camera.filter(|_| is_kept),
+            space: Space::of(written_above.world_from_node * transform.parent_from_node()),
+            transform,
+        });
+    }
+    branches
+}
+
+fn is_invertible(linear: DMat3) -> bool {
+    let longest =
+        [linear.x_axis, linear.y_axis, linear.z_axis].map(|axis| axis.length()).into_iter().fold(0.0, f64::max);
+    linear.determinant().abs() > FLAT * longest.powi(3)
+}
+
+impl Branch {
+    fn of_instance(instance: &Instance) -> Self {
+        Self {
             name: instance.name.clone(),
             parent: None,
             triangles: instance.triangles.clone(),
-        };
-        return shown.map(branch).collect();
+            light: None,
+            camera: None,
+            space: Space::WORLD,
+            transform: Transform::default(),
+        }
     }
-    let triangles: Vec<_> = scene.nodes.iter().map(|node| triangles_of(scene, &node.instances)).collect();
-    let mut is_kept: Vec<bool> = triangles.iter().map(|range| !range.is_empty()).collect();
-    for n in (0..scene.nodes.len()).rev().filter(|&n| scene.nodes[n].parent.is_some()) {
-        let parent = scene.nodes[n].parent.unwrap_or_default();
-        is_kept[parent] |= is_kept[n];
+
+    /// The node as glTF tells it, without what hangs on it.
+    pub(super) fn node(&self) -> Value {
+        let mut node = named(&self.name);
+        match self.transform {
+            transform if transform == Transform::default() => {}
+            Transform::Matrix(columns) => node["matrix"] = json!(columns),
+            Transform::Parts { translation, rotation, scale } => {
+                node["translation"] = json!(translation);
+                node["rotation"] = json!(rotation);
+                node["scale"] = json!(scale);
+            }
+        }
+        node
     }
-    let mut number = vec![0; scene.nodes.len()];
-    let mut branches = Vec::new();
-    for (n, node) in scene.nodes.iter().enumerate().filter(|&(n, _)| is_kept[n]) {
-        number[n] = branches.len();
-        let parent = node.parent.map(|parent| number[parent]);
-        branches.push(Branch { name: name_of(scene, n), parent, triangles: triangles[n].clone() });
+}
+
+impl Space {
+    const WORLD: Self = Self { world_from_node: DAffine3::IDENTITY, node_from_world: DAffine3::IDENTITY };
+
+    fn of(world_from_node: DAffine3) -> Self {
+        Self { world_from_node, node_from_world: world_from_node.inverse() }
     }
-    branches
+
+    /// What is a front in the world is a back in the node.
+    pub(super) fn is_mirrored(&self) -> bool {
+        self.world_from_node.matrix3.determinant() < 0.0
+    }
+
+    /// A point of the world.
+    pub(super) fn position(&self, in_world: Vec3) -> Vec3 {
+        self.node_from_world.transform_point3(in_world.as_dvec3()).as_vec3()
+    }
+
+    /// A unit normal of the world.
+    pub(super) fn normal(&self, in_world: Vec3) -> Vec3 {
+        if self.world_from_node == DAffine3::IDENTITY {
+            return in_world;
+        }
+        (self.world_from_node.matrix3.transpose() * in_world.as_dvec3()).normalize_or(in_world.as_dvec3()).as_vec3()
+    }
 }
 
 /// Instances lie side by side, and so do their triangles.

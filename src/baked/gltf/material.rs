@@ -49,7 +49,7 @@ pub(super) fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Valu
             (Cow::Owned(png(image)), "image/png")
         };
         let mut object = named(&image.name);
-        object["bufferView"] = json!(binary.push_image(&encoded));
+        object["bufferView"] = json!(binary.push_file(&encoded));
         object["mimeType"] = json!(mime_type);
         object
     };

@@ -6,7 +6,7 @@ use glam::Vec4;
 use serde_json::{Map, Value, json};
 
 use super::binary::Binary;
-use super::hierarchy::Branch;
+use super::hierarchy::{Branch, Space};
 use super::look::Look;
 use super::material::texture_slots;
 use super::named;
@@ -22,14 +22,16 @@ pub(super) fn meshes(scene: &Scene, branches: &[Branch], look: Option<Look<'_>>,
 fn mesh(scene: &Scene, look: Option<Look<'_>>, branch: &Branch, binary: &mut Binary) -> Value {
     let mut parts: BTreeMap<(MaterialId, bool), Vec<[u32; 3]>> = BTreeMap::new();
     for triangle in &scene.triangles[branch.triangles.clone()] {
-        parts.entry((triangle.material, triangle.is_back_side)).or_default().push(triangle.vertices);
+        let [a, b, c] = triangle.vertices;
+        let corners = if branch.space.is_mirrored() { [a, c, b] } else { [a, b, c] };
+        parts.entry((triangle.material, triangle.is_back_side)).or_default().push(corners);
     }
     let primitives: Vec<Value> = parts
         .into_iter()
         .map(|((material, is_back_side), triangles)| {
             let (vertices, indices) = renumber(&triangles);
             let mut primitive = json!({
-                "attributes": attributes(scene, look, &scene.materials[material.index()], &vertices, binary),
+                "attributes": attributes(scene, look, &branch.space, material, &vertices, binary),
                 "indices": binary.push_indices(&indices, vertices.len()),
                 "material": material.index(),
             });
@@ -65,15 +67,17 @@ fn renumber(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
 fn attributes(
     scene: &Scene,
     look: Option<Look<'_>>,
-    material: &Material,
+    space: &Space,
+    material: MaterialId,
     vertices: &[u32],
     binary: &mut Binary,
 ) -> Map<String, Value> {
+    let material = &scene.materials[material.index()];
     let mut attributes = Map::new();
     let mut put = |name: String, accessor: usize| attributes.insert(name, json!(accessor));
     let used = || vertices.iter().map(|&v| &scene.vertices[v as usize]);
-    put("POSITION".into(), binary.push_positions(used().map(|vertex| vertex.position.to_array())));
-    put("NORMAL".into(), binary.push_attribute(used().map(|vertex| vertex.normal.to_array())));
+    put("POSITION".into(), binary.push_positions(used().map(|vertex| space.position(vertex.position).to_array())));
+    put("NORMAL".into(), binary.push_attribute(used().map(|vertex| space.normal(vertex.normal).to_array())));
     for set in 0..num_uv_sets(material, used()) {
         let coordinates = used().map(|vertex| vertex.uv[set].to_array());
         put(format!("TEXCOORD_{set}"), binary.push_attribute(coordinates));

@@ -6,7 +6,8 @@
 //! in `extras`: `light_groups` and `exposure_ev` of the glTF scene, `light_group` of lights and emissive materials,
 //! `paint` of materials (what they were), `back_side` of primitives; vertex colours of the scene become `_COLOR` and
 //! `_ALPHA`.
-//! Vertices stand in the world and nodes have no transforms, so that reloading gives the same bits.
+//! Light comes back bit by bit, and so do meshes whose nodes are not turned; others within rounding, because each mesh is told
+//! in the space of its node, where other programs look for it.
 //! Deliberately absent: reading files, which is the loader's alone ([`crate::scene`]).
 //!
 //! Source: glTF 2.0 specification, sections 3 (concepts) and 4 (GLB file format).
@@ -97,14 +98,23 @@ impl Document {
         let (nodes, roots) = node::nodes(scene, &branches);
         put("nodes", nodes);
         put("meshes", meshes);
+        let mut listed = Map::new();
+        for (extension, lights) in [
+            (node::LIGHTS_EXTENSION, node::lights(scene)),
+            (node::PROFILES_EXTENSION, node::profiles(scene, &mut binary)),
+        ] {
+            if !lights.is_empty() {
+                extensions.insert(extension);
+                listed.insert(extension.into(), json!({ "lights": lights }));
+            }
+        }
         put("accessors", binary.accessors);
         put("bufferViews", binary.views);
         if !binary.bytes.is_empty() {
             put("buffers", vec![json!({ "byteLength": binary.bytes.len() })]);
         }
-        if !scene.lights.is_empty() {
-            extensions.insert(node::LIGHTS_EXTENSION);
-            root.insert("extensions".into(), json!({ node::LIGHTS_EXTENSION: { "lights": node::lights(scene) } }));
+        if !listed.is_empty() {
+            root.insert("extensions".into(), Value::Object(listed));
         }
         if !extensions.is_empty() {
             root.insert("extensionsUsed".into(), json!(extensions));

@@ -1,8 +1,9 @@
-//! Nodes: meshes, which already stand in the world, and the lights and cameras, which a node places.
+//! Nodes: what hangs on the branches of the tree, and the lights and cameras beside it.
 
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
 
+use super::binary::Binary;
 use super::hierarchy::Branch;
 use super::named;
 use crate::base::ids::GroupId;
@@ -10,45 +11,65 @@ use crate::scene::{Camera, Light, LightKind, Projection, Scene};
 
 /// Name of the extension that holds the lights.
 pub(super) const LIGHTS_EXTENSION: &str = "KHR_lights_punctual";
+/// Name of the extension that holds photometric files.
+pub(super) const PROFILES_EXTENSION: &str = "EXT_lights_ies";
 
 /// Where a perspective view begins, metres; glTF wants one, nobody here reads it.
 const NEAR: f32 = 0.01;
 /// Where an orthographic view ends, metres; glTF wants one, nobody here reads it.
 const FAR: f32 = 1000.0;
 
-/// One node for every branch, light and camera, in this order; and which of them have none above.
+/// One node for every branch, and for every light and camera that no branch carries; and which of them have none above.
 pub(super) fn nodes(scene: &Scene, branches: &[Branch]) -> (Vec<Value>, Vec<usize>) {
-    let mut mesh_nodes: Vec<Value> = branches.iter().map(|branch| named(&branch.name)).collect();
+    let mut nodes: Vec<Value> = branches.iter().map(Branch::node).collect();
     let drawn = branches.iter().enumerate().filter(|(_, branch)| !branch.triangles.is_empty());
     for (mesh, (node, _)) in drawn.enumerate() {
-        mesh_nodes[node]["mesh"] = json!(mesh);
+        nodes[node]["mesh"] = json!(mesh);
     }
     for (id, branch) in branches.iter().enumerate() {
+        if let Some(light) = branch.light {
+            nodes[id]["extensions"] = carrying(scene, light);
+        }
+        if let Some(camera) = branch.camera {
+            nodes[id]["camera"] = json!(camera);
+        }
         if let Some(parent) = branch.parent {
-            let children = &mut mesh_nodes[parent]["children"];
+            let children = &mut nodes[parent]["children"];
             match children.as_array_mut() {
                 Some(children) => children.push(json!(id)),
                 None => *children = json!([id]),
             }
         }
     }
-    let light_node = |(id, light): (usize, &Light)| {
+    let is_free = |carried: fn(&Branch) -> Option<usize>, id| branches.iter().all(|branch| carried(branch) != Some(id));
+    for (id, light) in scene.lights.iter().enumerate().filter(|&(id, _)| is_free(|branch| branch.light, id)) {
         let (translation, rotation) = place_of_light(light);
         let mut node = placed(&light.name, translation, rotation);
-        node["extensions"] = json!({ LIGHTS_EXTENSION: { "light": id } });
-        node
-    };
-    let camera_node = |(id, camera): (usize, &Camera)| {
+        node["extensions"] = carrying(scene, id);
+        nodes.push(node);
+    }
+    for (id, camera) in scene.cameras.iter().enumerate().filter(|&(id, _)| is_free(|branch| branch.camera, id)) {
         let mut node = placed(&camera.name, camera.position, camera.world_from_view);
         node["camera"] = json!(id);
-        node
-    };
-    let lights = scene.lights.iter().enumerate().map(light_node);
-    let cameras = scene.cameras.iter().enumerate().map(camera_node);
-    let nodes: Vec<Value> = mesh_nodes.into_iter().chain(lights).chain(cameras).collect();
+        nodes.push(node);
+    }
     let is_root = |id: &usize| branches.get(*id).is_none_or(|branch| branch.parent.is_none());
     let roots = (0..nodes.len()).filter(is_root).collect();
     (nodes, roots)
+}
+
+/// Extensions of a node that carries a light. Lights are told in two lists, by whether they have a photometric table.
+fn carrying(scene: &Scene, light: usize) -> Value {
+    let Light { profile, intensity, .. } = &scene.lights[light];
+    let number = scene.lights[..light].iter().filter(|other| other.profile.is_some() == profile.is_some()).count();
+    match profile {
+        None => json!({ LIGHTS_EXTENSION: { "light": number } }),
+        Some(profile) => {
+            let multiplier = intensity.max_element() / profile.photometry.peak();
+            let colour = colour_of(*intensity).to_array();
+            json!({ PROFILES_EXTENSION: { "light": number, "multiplier": multiplier, "color": colour } })
+        }
+    }
 }
 
 fn placed(name: &str, translation: Vec3, rotation: Quat) -> Value {
@@ -62,7 +83,9 @@ fn placed(name: &str, translation: Vec3, rotation: Quat) -> Value {
 fn place_of_light(light: &Light) -> (Vec3, Quat) {
     let turned = |direction| Quat::from_rotation_arc(Vec3::NEG_Z, direction).normalize();
     match light.kind {
-        LightKind::Point { position } => (position, Quat::IDENTITY),
+        LightKind::Point { position } => {
+            (position, light.profile.as_ref().map_or(Quat::IDENTITY, |profile| profile.world_from_light))
+        }
         LightKind::Spot { position, direction, .. } => (position, turned(direction)),
         LightKind::Directional { direction } => (Vec3::ZERO, turned(direction)),
     }
@@ -70,16 +93,34 @@ fn place_of_light(light: &Light) -> (Vec3, Quat) {
 
 /// The lights of KHR_lights_punctual.
 pub(super) fn lights(scene: &Scene) -> Vec<Value> {
-    scene.lights.iter().map(|light| punctual_light(light, group_name(scene, light.group))).collect()
+    let punctual = scene.lights.iter().filter(|light| light.profile.is_none());
+    punctual.map(|light| punctual_light(light, group_name(scene, light.group))).collect()
+}
+
+/// The photometric files of EXT_lights_ies.
+pub(super) fn profiles(scene: &Scene, binary: &mut Binary) -> Vec<Value> {
+    let told = |light: &Light| {
+        let view = binary.push_file(light.profile.as_ref()?.photometry.file());
+        let mut object = named(&light.name);
+        object["bufferView"] = json!(view);
+        object["mimeType"] = json!("application/x-ies-lm-63");
+        object["extras"] = json!({ "light_group": group_name(scene, light.group) });
+        Some(object)
+    };
+    scene.lights.iter().filter_map(told).collect()
+}
+
+/// The colour is at most one a channel; a light that is off has any.
+fn colour_of(intensity: Vec3) -> Vec3 {
+    let largest = intensity.max_element();
+    if largest > 0.0 { intensity / largest } else { Vec3::ONE }
 }
 
 fn punctual_light(light: &Light, group: &str) -> Value {
     let intensity = light.intensity.max_element();
-    // The colour is at most one a channel; a light that is off has any.
-    let colour = if intensity > 0.0 { light.intensity / intensity } else { Vec3::ONE };
     let mut object = named(&light.name);
     object["intensity"] = json!(intensity);
-    object["color"] = json!(colour.to_array());
+    object["color"] = json!(colour_of(light.intensity).to_array());
     object["extras"] = json!({ "light_group": group });
     if let Some(range) = light.range {
         object["range"] = json!(range);

@@ -1,3 +1,5 @@
+mod tree;
+
 use std::sync::Arc;
 
 use glam::{Affine2, Vec2, Vec3, Vec4};
@@ -66,6 +68,7 @@ fn lights() -> Vec<Light> {
         kind,
         intensity: Vec3::new(40.0, 20.0, 10.0),
         range,
+        profile: None,
         group: GroupId(group),
     };
     let position = Vec3::new(1.0, 2.0, 3.0);
@@ -266,28 +269,6 @@ fn other_programs_see_exposed_light_on_unlit_surfaces() {
 
 fn paint_of_nothing() -> Material {
     Material { base_colour: Vec4::W, ..Material::default() }
-}
-
-#[test]
-fn the_tree_of_names_is_kept_without_twigs_that_show_nothing() {
-    let node = |name: &str, parent, instances| crate::scene::NamedNode { name: name.into(), parent, instances };
-    let nodes = vec![
-        node("house", None, 0..0),
-        node("room", Some(0), 0..0),
-        node("", Some(1), 0..1),
-        node("lamp holder", Some(0), 0..0),
-    ];
-    let glb = scene_to_glb(&Scene { nodes, ..scene() }).expect("small");
-    let file = gltf::Gltf::from_slice(&glb).expect("valid glTF");
-    let mut roots = file.scenes().flat_map(|scene| scene.nodes().collect::<Vec<_>>());
-    let house = roots.next().expect("the house");
-    let room = house.children().next().expect("the room");
-    let squares = room.children().next().expect("the squares");
-    let names = [&house, &room, &squares].map(|node| node.name().unwrap_or_default().to_owned());
-    assert_eq!(names, ["house", "room", "squares"]);
-    assert_eq!((house.children().len(), house.mesh().is_none(), squares.mesh().is_some()), (1, true, true));
-    assert!(roots.all(|node| node.light().is_some() || node.camera().is_some()));
-    assert_eq!(reloaded(&glb).nodes[2].parent, Some(1));
 }
 
 #[test]

@@ -183,6 +183,7 @@ impl Surface {
                     // A Lambertian of radiance L and area A has the intensity L A cos.
                     intensity: radiance * (area / count as f32),
                     range: None,
+                    profile: None,
                     group: self.group,
                 },
                 surface_normal: Some(normal),
@@ -258,7 +259,14 @@ mod tests {
 
     #[test]
     fn a_light_with_a_radius_is_a_ball_of_points_as_strong_together() {
-        let light = |kind| Light { name: String::new(), kind, intensity: Vec3::ONE, range: None, group: GroupId(0) };
+        let light = |kind| Light {
+            name: String::new(),
+            kind,
+            intensity: Vec3::ONE,
+            range: None,
+            profile: None,
+            group: GroupId(0),
+        };
         let position = Vec3::new(1.0, 2.0, 3.0);
         let lights =
             vec![light(LightKind::Point { position }), light(LightKind::Directional { direction: Vec3::NEG_Y })];

@@ -84,7 +84,7 @@ impl Builder {
     /// Adds a light; `intensity` in candela, for a directional one in lux.
     pub(super) fn light(&mut self, name: &str, kind: LightKind, intensity: Vec3, group: &str) {
         let group = self.group(group);
-        self.scene.lights.push(Light { name: name.to_owned(), kind, intensity, range: None, group });
+        self.scene.lights.push(Light { name: name.to_owned(), kind, intensity, range: None, profile: None, group });
     }
 
     /// Adds a camera with a full vertical angle of `fov_deg` degrees.

@@ -119,7 +119,7 @@ fn an_empty_scene_is_said_to_be_empty_and_nothing_else_but_dark() {
 /// A spot 3 m above the triangle.
 fn spot(direction: Vec3, range: Option<f32>) -> Light {
     let kind = LightKind::Spot { position: Vec3::new(0.2, 0.2, 3.0), direction, inner_angle: 0.0, outer_angle: 0.3 };
-    Light { name: "spot".into(), kind, intensity: Vec3::ONE, range, group: GroupId(0) }
+    Light { name: "spot".into(), kind, intensity: Vec3::ONE, range, profile: None, group: GroupId(0) }
 }
 
 #[test]

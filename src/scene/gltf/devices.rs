@@ -1,5 +1,7 @@
 //! Lights and cameras of the file, placed in the world.
 
+use std::sync::Arc;
+
 use glam::{DAffine3, DMat3, DQuat, DVec3, Vec3};
 use gltf::json::camera::{Camera as CameraDefinition, Type as CameraType};
 use gltf::json::extensions::scene::khr_lights_punctual::{Light, Type as LightType};
@@ -7,6 +9,7 @@ use gltf::json::validation::Checked;
 
 use super::error::Cause;
 use crate::base::ids::GroupId;
+use crate::scene::photometry::{Photometry, Profile};
 use crate::scene::{self, Camera, LightKind, Projection};
 
 pub(super) use gltf::json::extensions::scene::khr_lights_punctual::Light as LightDefinition;
@@ -35,7 +38,27 @@ pub(super) fn light(definition: &Light, name: &str, world_from_node: DAffine3) -
         LightType::Spot => spot(definition, position, direction),
     };
     let range = definition.range.filter(|&range| range > 0.0 && range.is_finite());
-    Ok(Some(scene::Light { name: name.to_owned(), kind, intensity, range, group: GroupId(0) }))
+    Ok(Some(scene::Light { name: name.to_owned(), kind, intensity, range, profile: None, group: GroupId(0) }))
+}
+
+/// A light that shines as a photometric table tells, times `factor`, at its place; in group 0 until groups are made.
+pub(super) fn photometric_light(
+    photometry: Arc<Photometry>,
+    factor: Vec3,
+    name: &str,
+    world_from_node: DAffine3,
+) -> Result<Option<scene::Light>, Cause> {
+    let intensity = factor * photometry.peak();
+    if !intensity.is_finite() || intensity.max_element() > MAX_INTENSITY {
+        return Err(Cause::NotFinite(format!("the intensity of light {name:?}")));
+    }
+    if intensity == Vec3::ZERO {
+        return Ok(None);
+    }
+    let kind = LightKind::Point { position: world_from_node.translation.as_vec3() };
+    let world_from_light = DQuat::from_mat3(&frame(world_from_node)).normalize().as_quat();
+    let profile = Some(Profile { photometry, world_from_light });
+    Ok(Some(scene::Light { name: name.to_owned(), kind, intensity, range: None, profile, group: GroupId(0) }))
 }
 
 /// Angles outside the extension's limits are brought inside.

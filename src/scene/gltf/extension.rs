@@ -5,7 +5,8 @@ use gltf::json::Root;
 use super::error::Cause;
 
 /// Read in full.
-const UNDERSTOOD: [&str; 16] = [
+const UNDERSTOOD: [&str; 17] = [
+    "EXT_lights_ies",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",

@@ -83,7 +83,10 @@ fn flux_of_sources(scene: &Scene, definitions: &[usize]) -> BTreeMap<Source, f32
 fn light_flux(light: &Light, cross_section: f32) -> f32 {
     let intensity = luminance(light.intensity);
     match light.kind {
-        LightKind::Point { .. } => intensity * 2.0 * TAU,
+        LightKind::Point { .. } => match &light.profile {
+            Some(profile) => intensity * profile.photometry.flux() / profile.photometry.peak(),
+            None => intensity * 2.0 * TAU,
+        },
         LightKind::Spot { outer_angle, .. } => intensity * TAU * (1.0 - outer_angle.cos()),
         LightKind::Directional { .. } => intensity * cross_section,
     }
@@ -121,6 +124,7 @@ mod tests {
             kind: LightKind::Point { position: Vec3::ZERO },
             intensity: Vec3::splat(candela),
             range: None,
+            profile: None,
             group: GroupId(0),
         };
         Scene { lights: intensities.iter().map(light).collect(), ..Scene::default() }

@@ -13,7 +13,7 @@ use super::populate::name_of;
 use super::tree::PlacedNode;
 use super::{instancing, morph, place, skin, variant};
 use crate::base::ids::MaterialId;
-use crate::scene::{Material, NamedNode, Scene};
+use crate::scene::{Material, NamedNode, Scene, Transform};
 
 /// A primitive as it is read: mesh, primitive, and the bits of its morph weights.
 type Key = (usize, usize, Vec<u32>);
@@ -72,7 +72,10 @@ impl<'a> Meshes<'a> {
             if places.len() == 1 {
                 scene.nodes[place].instances = instances;
             } else {
-                scene.nodes.push(NamedNode { name: name.clone(), parent: Some(place), instances });
+                let transform = Transform::from_affine(*node_from_mesh);
+                let node =
+                    NamedNode { name: name.clone(), parent: Some(place), transform, instances, ..NamedNode::default() };
+                scene.nodes.push(node);
             }
         }
         Ok(())

@@ -24,6 +24,7 @@ mod extension;
 mod fixture;
 mod geometry;
 mod groups;
+mod ies;
 mod instancing;
 mod material;
 mod mesh;
@@ -190,9 +191,12 @@ fn nodes_without_parent(root: &Root) -> Vec<Index<Node>> {
     (0..).zip(is_root).filter(|&(_, is_root)| is_root).map(|(i, _)| Index::new(i)).collect()
 }
 
+/// Names of the light definitions: the punctual ones, then the photometric files.
 fn light_names(root: &Root) -> Vec<Option<String>> {
     let extension = root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
-    extension.map_or_else(Vec::new, |lights| lights.lights.iter().map(|light| light.name.clone()).collect())
+    let punctual = extension.map_or(&[][..], |lights| &lights.lights).iter().map(|light| light.name.clone());
+    let photometric = ies::definitions(root).iter().map(|light| light["name"].as_str().map(str::to_owned));
+    punctual.chain(photometric).collect()
 }
 
 /// The user should know where transport clamps what the file says.

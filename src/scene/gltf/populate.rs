@@ -1,14 +1,14 @@
-//! What hangs on the nodes: meshes are placed, lights and cameras taken along; the tree itself is not kept.
+//! What hangs on the nodes: meshes are placed, lights and cameras taken along; the tree is kept beside them.
 
-use glam::DAffine3;
-use gltf::json::{Index, Node};
+use gltf::json::Index;
 
 use super::devices;
 use super::document::Document;
 use super::error::Cause;
+use super::ies;
 use super::mesh::Meshes;
-use super::tree::PlacedNode;
-use crate::scene::{NamedNode, Scene};
+use super::tree::{PlacedNode, transform};
+use crate::scene::{Light, NamedNode, Scene};
 
 /// Fills a scene whose materials are there already.
 pub(super) struct Population<'a> {
@@ -16,6 +16,7 @@ pub(super) struct Population<'a> {
     scene: Scene,
     light_definitions: Vec<usize>,
     meshes: Meshes<'a>,
+    profiles: ies::Profiles<'a>,
 }
 
 impl<'a> Population<'a> {
@@ -23,10 +24,10 @@ impl<'a> Population<'a> {
     pub fn new(document: &'a Document<'a>, nodes: &[PlacedNode<'_>], mut scene: Scene, meshes: Meshes<'a>) -> Self {
         let named = |placed: &PlacedNode<'_>| {
             let name = placed.node.name.clone().unwrap_or_default();
-            NamedNode { name, parent: placed.parent, ..NamedNode::default() }
+            NamedNode { name, parent: placed.parent, transform: transform(placed.node), ..NamedNode::default() }
         };
         scene.nodes = nodes.iter().map(named).collect();
-        Self { document, scene, light_definitions: Vec::new(), meshes }
+        Self { document, scene, light_definitions: Vec::new(), meshes, profiles: ies::Profiles::new(document) }
     }
 
     /// Adds what hangs on the node at place `place` of the list.
@@ -39,35 +40,72 @@ impl<'a> Population<'a> {
         if let Some(camera) = node.camera {
             let camera = self.document.find(camera, "camera", user)?;
             let name = name_of([&node.name, &camera.name], "camera", self.scene.cameras.len());
+            self.scene.nodes[place].camera = Some(self.scene.cameras.len());
             self.scene.cameras.push(devices::camera(camera, name, world_from_node)?);
         }
         if let Some(light) = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref()) {
-            self.place_light(node, light.light, world_from_node, user)?;
+            self.place_light(place, placed, light.light)?;
+        }
+        if let Some(carried) = ies::carried(node, index)? {
+            self.place_photometric_light(place, placed, &carried)?;
         }
         Ok(())
     }
 
     fn place_light(
         &mut self,
-        node: &Node,
+        place: usize,
+        placed: &PlacedNode<'_>,
         index: Index<devices::LightDefinition>,
-        world_from_node: DAffine3,
-        user: impl Fn() -> String,
     ) -> Result<(), Cause> {
-        let definition = self.document.find(index, "light", user)?;
+        let PlacedNode { index: node_index, node, world_from_node, .. } = *placed;
+        let definition = self.document.find(index, "light", || format!("node {node_index}"))?;
         let name = name_of([&node.name, &definition.name], "light", index.value());
-        match devices::light(definition, &name, world_from_node)? {
+        let light = devices::light(definition, &name, world_from_node)?;
+        self.keep_light(place, light, &name, index.value());
+        Ok(())
+    }
+
+    fn place_photometric_light(
+        &mut self,
+        place: usize,
+        placed: &PlacedNode<'_>,
+        carried: &ies::Carried,
+    ) -> Result<(), Cause> {
+        let definitions = ies::definitions(&self.document.root);
+        let stated = definitions.get(carried.light).and_then(|definition| definition["name"].as_str());
+        let name = name_of([&placed.node.name, &stated.map(str::to_owned)], "photometric light", carried.light);
+        let photometry = match self.profiles.get(carried.light) {
+            Ok(photometry) => photometry,
+            Err(problem) => {
+                self.scene.notes.push(format!("photometric file of light {name:?}: {problem}; the light is left out"));
+                return Ok(());
+            }
+        };
+        let light = devices::photometric_light(photometry, carried.factor(), &name, placed.world_from_node)?;
+        let punctual = self.document.root.extensions.as_ref().and_then(|root| root.khr_lights_punctual.as_ref());
+        let num_before = punctual.map_or(0, |punctual| punctual.lights.len());
+        self.keep_light(place, light, &name, num_before + carried.light);
+        Ok(())
+    }
+
+    fn keep_light(&mut self, place: usize, light: Option<Light>, name: &str, definition: usize) {
+        match light {
             Some(light) => {
+                self.scene.nodes[place].light = Some(self.scene.lights.len());
                 self.scene.lights.push(light);
-                self.light_definitions.push(index.value());
+                self.light_definitions.push(definition);
             }
             None => self.scene.notes.push(format!("light {name:?} has no intensity and is left out")),
         }
-        Ok(())
     }
 
     /// The filled scene with notes on what was passed over, and the light definition behind each of its lights `[l]`.
     pub fn finish(mut self) -> (Scene, Vec<usize>) {
+        if self.scene.lights.iter().any(|light| light.profile.is_some()) {
+            let note = "photometric files are followed in bakes and by rays; --shadows takes such lights to be even";
+            self.scene.notes.push(note.to_owned());
+        }
         let counts = [
             ("primitives of points or lines, or without positions, ignored", self.meshes.not_triangles),
             ("triangles without area, dropped", self.scene.dropped_triangles),

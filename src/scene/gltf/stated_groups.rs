@@ -7,6 +7,7 @@ use gltf::json::{Extras, Root};
 use serde_json::Value;
 
 use super::groups::{MAX_GROUPS, OTHERS};
+use super::ies;
 use crate::base::ids::GroupId;
 use crate::scene::Scene;
 
@@ -46,7 +47,10 @@ pub(super) fn assign(scene: &mut Scene, definitions: &[usize], root: &Root) -> b
 
 fn groups_of_lights(root: &Root) -> Vec<Option<String>> {
     let extension = root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
-    extension.map_or_else(Vec::new, |lights| lights.lights.iter().map(|light| stated_group(&light.extras)).collect())
+    let punctual = extension.map_or(&[][..], |lights| &lights.lights).iter().map(|light| stated_group(&light.extras));
+    let photometric =
+        ies::definitions(root).iter().map(|light| light["extras"]["light_group"].as_str().map(str::to_owned));
+    punctual.chain(photometric).collect()
 }
 
 fn listed_names(root: &Root) -> Vec<String> {
@@ -76,6 +80,7 @@ mod tests {
             kind: LightKind::Point { position: Vec3::ZERO },
             intensity: Vec3::ONE,
             range: None,
+            profile: None,
             group: GroupId(0),
         };
         let glowing = Material { emission: Vec3::ONE, ..Material::default() };

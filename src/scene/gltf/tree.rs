@@ -1,10 +1,11 @@
 //! The node tree, flattened: every visible node with its transform to the world.
 
-use glam::{DAffine3, DMat4, DQuat, DVec3};
+use glam::DAffine3;
 use gltf::json::{Index, Node};
 
 use super::document::Document;
 use super::error::Cause;
+use crate::scene::Transform;
 
 /// Deepest node tree that is walked.
 const MAX_DEPTH: usize = 256;
@@ -57,7 +58,7 @@ impl Walk<'_, '_> {
         if is_hidden(node) {
             return Ok(());
         }
-        let world_from_node = world_from_parent * parent_from_node(node);
+        let world_from_node = world_from_parent * transform(node).parent_from_node();
         if !world_from_node.is_finite() {
             return Err(Cause::NotFinite(format!("the transform of node {index}")));
         }
@@ -73,17 +74,17 @@ fn is_hidden(node: &Node) -> bool {
     visibility.is_some_and(|visibility| visibility["visible"] == false)
 }
 
-fn parent_from_node(node: &Node) -> DAffine3 {
-    if let Some(matrix) = node.matrix {
-        return DAffine3::from_mat4(DMat4::from_cols_array(&matrix.map(f64::from)));
+/// Where a node stands in the one above it.
+pub(super) fn transform(node: &Node) -> Transform {
+    match (node.matrix, Transform::default()) {
+        (Some(matrix), _) => Transform::Matrix(matrix),
+        (None, Transform::Parts { translation, rotation, scale }) => Transform::Parts {
+            translation: node.translation.unwrap_or(translation),
+            rotation: node.rotation.map_or(rotation, |rotation| rotation.0),
+            scale: node.scale.unwrap_or(scale),
+        },
+        (None, other) => other,
     }
-    let vector = |xyz: [f32; 3]| DVec3::from(xyz.map(f64::from));
-    let rotation = DQuat::from_array(node.rotation.unwrap_or_default().0.map(f64::from));
-    DAffine3::from_scale_rotation_translation(
-        node.scale.map_or(DVec3::ONE, vector),
-        if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY },
-        node.translation.map_or(DVec3::ZERO, vector),
-    )
 }
 
 #[cfg(test)]

@@ -1,0 +1,82 @@
+//! Pictures as files, and a room as it looked before.
+
+use std::path::Path;
+
+use glam::Vec3;
+use hemicube::base::ids::GroupId;
+use hemicube::gpu::SceneBuffers;
+use hemicube::render::{Exposure, Look, Raster, ToneMap, develop, picture_of};
+use hemicube::scene::{Camera, Material};
+
+use super::stage::{SIZE, draw, four_texels, plain};
+use crate::support::device::gpu;
+use crate::support::quads::{Quads, paint};
+use crate::support::snapshot::assert_snapshot;
+
+#[test]
+fn files_hold_what_the_picture_holds() {
+    let Some(picture) = draw(&four_texels(), &plain()) else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let (png, exr) = (folder.path().join("a.png"), folder.path().join("a.EXR"));
+    picture.save(&png).expect("written");
+    picture.save(&exr).expect("written");
+    assert_eq!(Raster::load(&png).expect("read").pixels, Raster::displayed(&picture).pixels);
+    assert_eq!(Raster::load(&exr).expect("read"), Raster::radiance(&picture));
+    assert_eq!(std::fs::read_dir(folder.path()).expect("listed").count(), 2, "no temporary file is left");
+}
+
+#[test]
+fn a_file_that_cannot_be_written_or_read_is_named() {
+    let Some(picture) = draw(&four_texels(), &plain()) else { return };
+    let nowhere = Path::new("/no/such/folder/a.png");
+    let messages = [picture.save(nowhere).expect_err("no folder"), Raster::load(nowhere).expect_err("no file")];
+    for message in messages.map(|error| error.to_string()) {
+        assert!(message.contains("/no/such/folder/a.png"), "{message}");
+    }
+}
+
+/// A box open towards the camera with a red and a green wall, a lamp and light that falls off from the lamp.
+fn room() -> Quads {
+    let mut quads = Quads::with_groups(1);
+    let white = quads.material(paint(Vec3::splat(0.75)));
+    let red = quads.material(paint(Vec3::new(0.6, 0.06, 0.05)));
+    let green = quads.material(paint(Vec3::new(0.12, 0.5, 0.1)));
+    let lamp = quads.material(Material { emission: Vec3::new(17.0, 12.0, 4.0), ..paint(Vec3::splat(0.75)) });
+    let (x, y, z) = (2.0 * Vec3::X, 2.0 * Vec3::Y, 2.0 * Vec3::Z);
+    quads.quad(Vec3::new(-1.0, -1.0, 1.0), x, -z, white);
+    quads.quad(Vec3::new(-1.0, 1.0, -1.0), x, z, white);
+    quads.quad(Vec3::new(-1.0, -1.0, -1.0), x, y, white);
+    quads.quad(Vec3::new(-1.0, -1.0, 1.0), -z, y, red);
+    quads.quad(Vec3::new(1.0, -1.0, -1.0), z, y, green);
+    quads.quad(Vec3::new(-0.3, 0.99, -0.3), 0.3 * x, 0.3 * z, lamp);
+    let light = |p: Vec3| Vec3::new(12.0, 9.0, 5.0) / (0.6 + (p - Vec3::Y).length_squared());
+    quads.light(GroupId(0), light, |_| Vec3::splat(0.5));
+    quads
+}
+
+#[test]
+fn a_room_looks_as_it_did() {
+    let Some(gpu) = gpu() else { return };
+    let camera = Camera::looking_at("room", Vec3::new(0.3, 0.2, 4.2), Vec3::ZERO, 0.65);
+    let scene = SceneBuffers::new(gpu, &room().baked);
+    let drawn = picture_of(gpu, &scene, &camera, [256; 2], &Look::default(), 1);
+    assert_snapshot("room", &drawn.expect("a picture"));
+}
+
+#[test]
+fn the_processor_shows_light_as_the_gpu_does() {
+    // From dark to far beyond white, in colour, and a corner where nothing is.
+    let mut quads = Quads::with_groups(1);
+    let material = quads.material(paint(Vec3::new(0.9, 0.6, 0.3)));
+    quads.quad(Vec3::new(-1.0, -1.0, 0.0), 1.9 * Vec3::X, 1.7 * Vec3::Y, material);
+    quads.light(GroupId(0), |at| Vec3::new(3e3, 1e3, 2e3) * (0.01 + (at.x + 1.0) * (at.y + 1.0)), |_| Vec3::ZERO);
+    for exposure in [Exposure::Auto, Exposure::Ev(-9.0), Exposure::Ev(-6.0)] {
+        for tone_map in [ToneMap::Neutral, ToneMap::Linear] {
+            let look = Look { exposure, tone_map, ..Look::default() };
+            let Some(drawn) = draw(&quads, &look) else { return };
+            let developed = develop([SIZE; 2], drawn.radiance.clone(), &look);
+            let off = drawn.display.iter().zip(&developed.display).map(|(a, b)| a.abs_diff(*b)).max();
+            assert!(off <= Some(1), "{look:?}: {off:?} steps apart");
+        }
+    }
+}

@@ -1,0 +1,8 @@
+//! Pictures that the GPU draws, held against what they must show.
+
+mod display;
+mod files;
+mod radiance;
+mod sides;
+mod stage;
+mod textures;

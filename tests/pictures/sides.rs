@@ -1,0 +1,95 @@
+//! Holes, surfaces that blend, and the two sides of a surface.
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+use hemicube::base::ids::GroupId;
+use hemicube::gpu::SceneBuffers;
+use hemicube::render::{Look, picture_of};
+use hemicube::scene::{AlphaMode, Material};
+
+use super::stage::{SIZE, assert_close, draw, plain, quarters, radiance_at};
+use crate::support::device::gpu;
+use crate::support::quads::{Quads, paint, slot, square_camera, texture};
+
+/// A white square with a hole in its upper left quarter, before a red wall.
+fn window(alpha_mode: AlphaMode, alpha: u8) -> Quads {
+    let mut quads = Quads::with_groups(1);
+    let solid = [255; 4];
+    quads.baked.scene.textures.push(texture(2, &[[255, 255, 255, alpha], solid, solid, solid]));
+    let pane = quads.material(Material { base_colour_texture: Some(slot(0)), alpha_mode, ..paint(Vec3::ONE) });
+    let wall = quads.material(paint(Vec3::X));
+    quads.quad(Vec3::new(-1.0, -1.0, 0.0), 2.0 * Vec3::X, 2.0 * Vec3::Y, pane);
+    quads.quad(Vec3::new(-1.0, -1.0, -1.0), 2.0 * Vec3::X, 2.0 * Vec3::Y, wall);
+    quads.light(GroupId(0), |_| Vec3::splat(PI), |_| Vec3::ZERO);
+    quads
+}
+
+#[test]
+fn masks_have_holes_with_and_without_multisampling() {
+    let quads = window(AlphaMode::Mask { cutoff: 0.5 }, 100);
+    let Some(gpu) = gpu() else { return };
+    for samples in [1, 4] {
+        let scene = SceneBuffers::new(gpu, &quads.baked);
+        let drawn = picture_of(gpu, &scene, &square_camera(), [SIZE; 2], &plain(), samples);
+        let white = [255; 3];
+        assert_eq!(quarters(&drawn.expect("a picture")), [[255, 0, 0], white, white, white], "{samples} samples");
+    }
+}
+
+#[test]
+fn blended_surfaces_let_the_rest_through() {
+    let Some(picture) = draw(&window(AlphaMode::Blend, 51), &plain()) else { return };
+    assert_close(radiance_at(&picture, 16, 16), Vec3::new(1.0, 0.2, 0.2));
+    assert_close(radiance_at(&picture, 48, 16), Vec3::ONE);
+}
+
+#[test]
+fn opaque_surfaces_ignore_alpha() {
+    let Some(picture) = draw(&window(AlphaMode::Opaque, 0), &plain()) else { return };
+    assert_close(radiance_at(&picture, 16, 16), Vec3::ONE);
+}
+
+/// The square seen from behind.
+fn from_behind(material: Material) -> Quads {
+    let mut quads = Quads::with_groups(1);
+    let material = quads.material(material);
+    quads.quad(Vec3::new(1.0, -1.0, 0.0), -2.0 * Vec3::X, 2.0 * Vec3::Y, material);
+    quads.light(GroupId(0), |_| Vec3::splat(PI), |_| Vec3::ZERO);
+    quads
+}
+
+/// Radiance and coverage in the middle.
+fn middle(quads: &Quads, look: &Look) -> Option<[f32; 2]> {
+    let picture = draw(quads, look)?;
+    let [r, _, _, a] = picture.radiance[(SIZE / 2 * SIZE + SIZE / 2) as usize];
+    Some([r, a])
+}
+
+#[test]
+fn backs_are_invisible_or_black_or_a_second_face() {
+    let single = from_behind(paint(Vec3::ONE));
+    let double = from_behind(Material { double_sided: true, ..paint(Vec3::ONE) });
+    let solid = Look { cull_back: false, ..plain() };
+    let Some(culled) = middle(&single, &plain()) else { return };
+    assert_eq!(culled, [0.0, 0.0]);
+    assert_eq!(middle(&single, &solid).expect("a GPU"), [0.0, 1.0]);
+    assert_eq!(middle(&double, &plain()).expect("a GPU"), [1.0, 1.0]);
+}
+
+#[test]
+fn baked_twins_are_seen_each_from_its_side() {
+    // The front twin looks away and is lit ten times as much.
+    let mut quads = from_behind(Material { double_sided: true, ..paint(Vec3::ONE) });
+    quads.quad(Vec3::new(-1.0, -1.0, 0.0), 2.0 * Vec3::X, 2.0 * Vec3::Y, hemicube::base::ids::MaterialId(0));
+    for triangle in &mut quads.baked.scene.triangles[2..] {
+        triangle.is_back_side = true;
+    }
+    quads.light(GroupId(0), |_| Vec3::splat(PI), |_| Vec3::ZERO);
+    for lit in &mut quads.baked.light.groups[0].direct[..4] {
+        *lit *= 10.0;
+    }
+    let solid = Look { cull_back: false, ..plain() };
+    let Some(picture) = draw(&quads, &solid) else { return };
+    assert!(picture.radiance.iter().all(|pixel| (pixel[0] - 1.0).abs() < 1e-3));
+}

@@ -1,0 +1,71 @@
+//! A square seen face on, and what its picture holds.
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+use hemicube::gpu::SceneBuffers;
+use hemicube::render::{Exposure, Look, Picture, ToneMap, picture_of};
+use hemicube::scene::Material;
+
+use crate::support::device::gpu;
+use crate::support::quads::{Quads, paint, slot, square_camera, texture};
+
+pub const SIZE: u32 = 64;
+
+/// Radiance shown as it is.
+pub fn plain() -> Look {
+    Look {
+        exposure: Exposure::Ev(0.0),
+        tone_map: ToneMap::Linear,
+        background: Vec3::ZERO,
+        metal_as_diffuse: false,
+        ..Look::default()
+    }
+}
+
+/// The square seen face on, without multisampling.
+pub fn draw(quads: &Quads, look: &Look) -> Option<Picture> {
+    let gpu = gpu()?;
+    let scene = SceneBuffers::new(gpu, &quads.baked);
+    Some(picture_of(gpu, &scene, &square_camera(), [SIZE; 2], look, 1).expect("a picture"))
+}
+
+pub fn radiance_at(picture: &Picture, x: u32, y: u32) -> Vec3 {
+    let [r, g, b, _] = picture.radiance[(y * picture.width + x) as usize];
+    Vec3::new(r, g, b)
+}
+
+pub fn display_at(picture: &Picture, x: u32, y: u32) -> [u8; 3] {
+    let at = 4 * (y * picture.width + x) as usize;
+    [picture.display[at], picture.display[at + 1], picture.display[at + 2]]
+}
+
+/// Radiance in the middle of the square.
+pub fn centre(quads: &Quads, look: &Look) -> Option<Vec3> {
+    draw(quads, look).map(|picture| radiance_at(&picture, SIZE / 2, SIZE / 2))
+}
+
+#[track_caller]
+pub fn assert_close(found: Vec3, expected: Vec3) {
+    assert_within(1e-3, found, expected);
+}
+
+/// Equal to a share of the largest channel.
+#[track_caller]
+pub fn assert_within(tolerance: f32, found: Vec3, expected: Vec3) {
+    let largest = expected.abs().max_element().max(1e-3);
+    assert!((found - expected).abs().max_element() <= tolerance * largest, "{found}, not {expected}");
+}
+
+/// The square with a texture of 2 x 2 texels: red green / blue white.
+pub fn four_texels() -> Quads {
+    let texels = [[255, 0, 0, 255], [0, 255, 0, 255], [0, 0, 255, 255], [255, 255, 255, 255]];
+    let mut quads = Quads::square(Material { base_colour_texture: Some(slot(0)), ..paint(Vec3::ONE) }, Vec3::splat(PI));
+    quads.baked.scene.textures.push(texture(2, &texels));
+    quads
+}
+
+/// Display colours of the four quarters, row by row.
+pub fn quarters(picture: &Picture) -> [[u8; 3]; 4] {
+    [(16, 16), (48, 16), (16, 48), (48, 48)].map(|(x, y)| display_at(picture, x, y))
+}
