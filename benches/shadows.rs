@@ -71,7 +71,8 @@ fn with_one_spot(mut scene: Scene) -> Scene {
     let kind =
         LightKind::Spot { position, direction: Vec3::NEG_Y, inner_angle: 0.8 * FRAC_PI_3, outer_angle: FRAC_PI_3 };
     let intensity = Vec3::splat((high - low).length_squared());
-    scene.lights = vec![Light { name: "spot".to_owned(), kind, intensity, range: None, group: GroupId(0) }];
+    scene.lights =
+        vec![Light { name: "spot".to_owned(), kind, intensity, range: None, group: GroupId(0), profile: None }];
     scene.light_groups = vec!["spot".to_owned()];
     for material in &mut scene.materials {
         (material.emission, material.group) = (Vec3::ZERO, None);

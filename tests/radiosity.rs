@@ -3,8 +3,13 @@
 use glam::Vec3;
 use hemicube::bake::{BakeSettings, Method, Quality, Solver, bake};
 use hemicube::base::colour::luminance;
+use hemicube::base::ids::ElementId;
 use hemicube::base::progress::Unwatched;
+use hemicube::form_factor::{Entry, Row};
 use hemicube::gpu::Gpu;
+use hemicube::patch::{MeshSettings, PatchMesh};
+use hemicube::radiosity::Field;
+use hemicube::radiosity::contacts::Contacts;
 use hemicube::scene::builtin;
 
 use crate::support::device::gpu;
@@ -154,4 +159,39 @@ fn each_gathering_pass_brings_the_light_of_one_more_reflection() {
         }
         assert_eq!(bake.report.passes, passes);
     }
+}
+
+#[test]
+fn what_is_close_reflects_the_light_of_its_vertices_and_what_is_far_that_of_its_patch() {
+    let scene = scenes::furnace(Vec3::splat(0.5), Vec3::ONE);
+    let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.3, patch_size: 0.5 }).unwrap();
+    let radiosity = Field::from_values(1, vec![Vec3::ONE; mesh.elements.len()]);
+    let received = Field::from_values(1, vec![Vec3::splat(4.0); mesh.light_vertices.len()]);
+    let nothing = Field::zero(mesh.light_vertices.len(), 1);
+    // Just below the middle of the ceiling, which fills the view: rho x 4 = 2 is reflected there and not 1.
+    let (reach, height) = (0.5, 0.1);
+    let place = Vec3::new(0.5, 1.0 - height, 0.5);
+    let above = mesh.elements.iter().position(|element| {
+        let [a, b, c] = mesh.corners(element);
+        a.y == 1.0 && b.y == 1.0 && c.y == 1.0 && [a, b, c].iter().any(|p| (p.x, p.z) == (0.5, 0.5))
+    });
+    let row = |element: usize| Row {
+        entries: vec![Entry { element: ElementId::new(element), factor: 1.0 }],
+        ..Row::default()
+    };
+    let mut contacts = Contacts::new(&mesh, &radiosity, reach);
+    let (close, nearest) = contacts.of(&row(above.expect("the ceiling")), place);
+    assert!((nearest - height).abs() < 1e-6, "{nearest}");
+    let corrected = |contacts: &Contacts<'_>| {
+        let mut irradiance = [Vec3::ONE];
+        contacts.correct(&close, place, &mut irradiance);
+        irradiance[0].x
+    };
+    assert_eq!(corrected(&contacts), 1.0);
+    contacts.learn(&received, &nothing, &vec![true; mesh.light_vertices.len()]);
+    let expected = 1.0 + (1.0 - height / reach);
+    assert!((corrected(&contacts) - expected).abs() < 1e-5, "{} for {expected}", corrected(&contacts));
+    // The floor is farther than contacts reach.
+    let floor = mesh.elements.iter().position(|element| mesh.corners(element).iter().all(|p| p.y == 0.0));
+    assert!(contacts.of(&row(floor.expect("the floor")), place).0.is_empty());
 }

@@ -8,14 +8,15 @@ use crate::scene::{Scene, Triangle, Vertex};
 /// Program, driver and their buffers, bytes.
 const PROGRAM: usize = 82 << 20;
 
-/// Elements after halving where light changes, as a multiple of those before. Light is not known yet.
-const TYPICAL_GROWTH: f64 = 1.7;
+/// Elements that halving where light changes adds, as a share of the most that it may add: under lights that throw soft
+/// shadows only, and under lights that throw hard ones. Where their edges lie is not known yet.
+const TYPICAL_GROWTH: [f64; 2] = [0.1, 0.8];
 
 /// Rays of a row that meet an element of their own.
 const SHARE_OF_ENTRIES: f64 = 0.5;
 
 /// Copies of the mesh and of the drawn scene that a bake holds at a time.
-const COPIES: usize = 3;
+const COPIES: usize = 5;
 
 /// Bytes a triangle of the ray tree.
 const RAY_TREE: usize = 110;
@@ -45,7 +46,14 @@ impl Forecast {
     /// As [`Self::of`], for a scene that has been cut.
     #[must_use]
     pub fn of_mesh(scene: &Scene, mesh: &PatchMesh, settings: &BakeSettings) -> Self {
-        let growth = if settings.refine_error > 0.0 { TYPICAL_GROWTH } else { 1.0 };
+        let added = if settings.refine_error > 0.0 {
+            TYPICAL_GROWTH[usize::from(!scene.lights.is_empty())]
+                * f64::from(settings.max_growth)
+                * settings.target_elements
+        } else {
+            0.0
+        };
+        let growth = 1.0 + added / mesh.elements.len().max(1) as f64;
         let grown = |count: usize| (count as f64 * growth) as usize;
         let colour = size_of::<glam::Vec3>() * scene.light_groups.len();
         let an_element = size_of::<Element>() + size_of::<Triangle>() + 2 * colour;

@@ -100,8 +100,9 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     let sites = Sites::new(scene);
     let tracer = Tracer::new(scene);
     let lights = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays);
-    let lighting =
-        Lighting { lights: &lights, tracer: &tracer, settings, refine: settings.refine(scene, &sizes), watch };
+    let refine = settings.refine(scene, &sizes);
+    let sharpen = settings.sharpen(refine, &sizes);
+    let lighting = Lighting { lights: &lights, tracer: &tracer, settings, refine, sharpen, watch };
     let places = sites.of_light_vertices(&mesh);
     let (mesh, mut direct) = lighting.refine_by_direct(&mut cut, mesh, &places)?;
     watch.mesh(&lit_mesh(scene, &mesh, &direct, &Field::zero(direct.num_places(), direct.num_groups())));
@@ -130,6 +131,10 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         let mut gatherer = Gatherer::new(&mesh, &radiosity, settings.gather(&sizes));
         gathered = gatherer.at(&mut *gathering, &places, watch)?;
         if !watch.is_cancelled() {
+            // A pass that was asked for reflects what the one before found, and no more.
+            if settings.passes.is_none() {
+                gatherer.settle_contacts(&places, &direct, &mut gathered);
+            }
             let light = (direct, gathered);
             let found = lighting.refine_by_all(&mut cut, mesh.clone(), light, &mut gatherer, &mut *gathering)?;
             (refined, direct, gathered) = (Some(found.0), found.1, found.2);

@@ -21,6 +21,7 @@ pub(super) struct Lighting<'a> {
     pub tracer: &'a Tracer<'a>,
     pub settings: &'a BakeSettings,
     pub refine: RefineSettings,
+    pub sharpen: RefineSettings,
     pub watch: &'a dyn Watch,
 }
 
@@ -68,7 +69,7 @@ impl Lighting<'_> {
             let direct = self.lights.irradiance(places, self.watch);
             Ok(join(&direct, &gatherer.at(method, places, self.watch)?))
         };
-        let (mesh, lit) = cut.refine(mesh, lit, &self.refine, floor, &mut evaluate)?;
+        let (mesh, lit) = cut.refine(mesh, lit, &self.sharpen, floor, &mut evaluate)?;
         let part = |first: usize| {
             let columns = |l: usize| lit.light.at(l)[first..first + num_groups].iter().copied();
             Field::from_values(num_groups, (0..lit.is_open.len()).flat_map(columns).collect())

@@ -56,8 +56,10 @@ pub struct BakeSettings {
     pub target_elements: f64,
     /// Deviation from the mean of its ends at which an edge is halved, relative to the light there; 0 halves none.
     pub refine_error: f32,
-    /// Shortest edges that halving makes, in element sizes.
+    /// Shortest edges that halving makes before light is reflected, in element sizes.
     pub min_edge: f32,
+    /// Shortest edges of hard shadows in the result, in element sizes.
+    pub sharp_edge: f32,
     /// About the most elements, as a multiple of those aimed at; small input triangles come on top.
     pub max_growth: f32,
     /// Patches that the patch size aims at.
@@ -109,6 +111,7 @@ impl BakeSettings {
             target_elements: 12_000.0,
             refine_error: 0.04,
             min_edge: 1.0 / 8.0,
+            sharp_edge: 1.0 / 32.0,
             max_growth: 8.0,
             target_patches: 1_500.0,
             points_a_patch: 2,
@@ -124,6 +127,7 @@ impl BakeSettings {
                 target_elements: 6_000.0,
                 refine_error: 0.1,
                 min_edge: 1.0 / 4.0,
+                sharp_edge: 1.0 / 8.0,
                 max_growth: 3.0,
                 target_patches: 500.0,
                 points_a_patch: 1,
@@ -140,6 +144,7 @@ impl BakeSettings {
                 target_elements: 40_000.0,
                 refine_error: 0.02,
                 min_edge: 1.0 / 16.0,
+                sharp_edge: 1.0 / 64.0,
                 target_patches: 4_000.0,
                 points_a_patch: 4,
                 cache_tolerance: 0.06,
@@ -160,17 +165,29 @@ impl BakeSettings {
         MeshSettings { element_size, patch_size }
     }
 
+    /// How elements follow direct light before it is reflected.
     pub(super) fn refine(&self, scene: &Scene, sizes: &MeshSettings) -> RefineSettings {
         let for_light = f64::from(self.max_growth) * self.target_elements;
+        let min_edge = self.min_edge * sizes.element_size;
         RefineSettings {
             max_error: self.refine_error,
-            min_edge: self.min_edge * sizes.element_size,
+            short_edge: 2.0 * min_edge,
+            min_edge,
             max_elements: for_light as usize + 2 * scene.triangles.len(),
         }
     }
 
+    /// How they follow all light in the end, given how they followed direct light.
+    pub(super) fn sharpen(&self, refine: RefineSettings, sizes: &MeshSettings) -> RefineSettings {
+        RefineSettings { min_edge: self.sharp_edge * sizes.element_size, ..refine }
+    }
+
     pub(super) fn gather(&self, sizes: &MeshSettings) -> GatherSettings {
-        GatherSettings { tolerance: self.cache_tolerance, max_radius: BORROW_REACH * sizes.element_size }
+        GatherSettings {
+            tolerance: self.cache_tolerance,
+            max_radius: BORROW_REACH * sizes.element_size,
+            contact_reach: sizes.patch_size,
+        }
     }
 
     pub(super) fn progressive(&self) -> ProgressiveSettings {

@@ -5,3 +5,4 @@ pub mod ids;
 pub mod output;
 pub mod progress;
 pub mod sampling;
+pub mod triangle;

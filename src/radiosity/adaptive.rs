@@ -25,6 +25,9 @@ use crate::scene::Scene;
 pub struct RefineSettings {
     /// Deviation from the mean of the ends at which an edge is halved, relative to the light there.
     pub max_error: f32,
+    /// Edges shorter than this must deviate more, in inverse proportion to their length, metres: a hard edge of a shadow
+    /// is worth small elements, a soft one is not.
+    pub short_edge: f32,
     /// Edges shorter than twice this stay whole, metres.
     pub min_edge: f32,
     /// About the most elements that there may be.
@@ -88,7 +91,9 @@ impl<'a> Cut<'a> {
             let mut wanted: Vec<(f32, &Edge)> = (0..)
                 .zip(&edges)
                 .filter_map(|(i, edge)| Some((edge.deviation(&lit, &middles, i, floor)?, edge)))
-                .filter(|(deviation, _)| *deviation > settings.max_error)
+                .filter(|(deviation, edge)| {
+                    *deviation > settings.max_error * edge.strictness(&mesh, settings.short_edge)
+                })
                 .collect();
             if wanted.is_empty() {
                 return Ok((mesh, lit));
@@ -140,6 +145,12 @@ impl Edge {
         let middle = self.middle(mesh);
         let seed = middle.position.to_array().map(f32::to_bits).into_iter().fold(0, |seed, bits| seed ^ bits);
         sites.beside(mesh, &middle, self.elements.iter().copied(), seed)
+    }
+
+    /// How many times the largest error the edge must deviate by.
+    fn strictness(&self, mesh: &PatchMesh, short_edge: f32) -> f32 {
+        let [a, b] = self.ends.map(|l| mesh.light_vertices[l].position);
+        (short_edge / a.distance(b)).max(1.0)
     }
 
     /// How far the middle is from the mean of the ends; none where one of them lies inside something.

@@ -15,6 +15,9 @@ use crate::form_factor::Viewpoint;
 /// How much farther sites are blended from than looked for.
 const BLEND: f32 = 2.0;
 
+/// Smallest neighbourhood, as a share of the largest: corners need no finer detail than the mesh shows.
+const SMALLEST: f32 = 1.0 / 64.0;
+
 /// A site whose irradiance is known.
 #[derive(Clone, Copy, Debug)]
 struct Record {
@@ -47,7 +50,8 @@ impl IrradianceCache {
     /// Enters a known site that sees surfaces at harmonic mean distance `distance`, the nearest at `nearest`: it is good
     /// for no place beyond that one, which may be under a shelf that the site sees from outside.
     pub fn insert(&mut self, viewpoint: &Viewpoint, distance: f32, nearest: f32, site: u32) {
-        let radius = (distance * self.tolerance).min(self.max_radius).min(nearest / BLEND);
+        let within = (nearest / BLEND).max(SMALLEST * self.max_radius);
+        let radius = (distance * self.tolerance).min(self.max_radius).min(within);
         let record = Record { position: viewpoint.position, normal: viewpoint.normal, radius, site };
         let halvings = (self.max_radius / radius.max(f32::MIN_POSITIVE)).log2();
         let level = (halvings.max(0.0) as usize).min(MAX_LEVEL);

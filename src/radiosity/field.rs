@@ -52,6 +52,12 @@ impl Field {
     }
 
     /// All values, place by place.
+    #[must_use]
+    pub fn values(&self) -> &[Vec3] {
+        &self.values
+    }
+
+    /// All values, place by place.
     pub fn values_mut(&mut self) -> &mut [Vec3] {
         &mut self.values
     }

@@ -10,6 +10,7 @@ use glam::{Mat2, Vec2, Vec3};
 use rayon::prelude::*;
 
 use super::cache::IrradianceCache;
+use super::contacts::{Contact, Contacts};
 use super::field::Field;
 use crate::base::progress::{Progress, Stage};
 use crate::base::sampling::{hash, tangent_frame};
@@ -22,13 +23,18 @@ const ROUND: usize = 512;
 /// Stiffness of the plane through records, as a share of how far they scatter.
 const STIFFNESS: f32 = 0.1;
 
+/// Times that contacts are found anew; each leaves less than the reflectance times their form factor of the error.
+const CONTACT_ROUNDS: usize = 3;
+
 /// Where and how densely light is gathered.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GatherSettings {
-    /// Largest error of the irradiance cache; 0 gathers at every site.
+    /// Largest error of the irradiance cache.
     pub tolerance: f32,
     /// Farthest that a site is borrowed from, metres.
     pub max_radius: f32,
+    /// How close elements must be to reflect the light of their own vertices, metres.
+    pub contact_reach: f32,
 }
 
 /// Indirect light at sites.
@@ -45,11 +51,15 @@ pub struct Gathered {
 pub struct Gatherer<'a> {
     radiosity: &'a Field,
     centroids: Vec<Vec3>,
-    settings: GatherSettings,
     cache: IrradianceCache,
-    /// Places and irradiance `[record][group]` of the sites that others borrow from.
-    places: Vec<Vec3>,
-    records: Vec<Vec3>,
+    contacts: Contacts<'a>,
+    /// The sites that others borrow from.
+    records: Vec<Record>,
+    /// Irradiance `[record][group]` as gathered, and with the light of contacts.
+    gathered: Vec<Vec3>,
+    irradiance: Vec<Vec3>,
+    /// Contacts of all records, record by record.
+    close: Vec<Contact>,
     back_share: f32,
     /// Hemicubes that stood at sites.
     pub num_hemicubes: usize,
@@ -58,11 +68,19 @@ pub struct Gatherer<'a> {
 /// What a hemicube tells of its site.
 struct Sight {
     irradiance: Vec<Vec3>,
+    contacts: Vec<Contact>,
     back: f32,
     /// Harmonic mean distance, metres.
     distance: f32,
-    /// Distance of the nearest element, metres.
+    /// Distance of the nearest place on an element, metres.
     nearest: f32,
+}
+
+/// A site that others borrow from.
+struct Record {
+    place: Vec3,
+    /// Its contacts: from the end of the record before to this one's.
+    end_of_contacts: usize,
 }
 
 impl<'a> Gatherer<'a> {
@@ -72,10 +90,12 @@ impl<'a> Gatherer<'a> {
         Self {
             radiosity,
             centroids: mesh.elements.iter().map(|element| mesh.centroid(element)).collect(),
-            settings,
             cache: IrradianceCache::new(settings.tolerance, settings.max_radius),
-            places: Vec::new(),
+            contacts: Contacts::new(mesh, radiosity, settings.contact_reach),
             records: Vec::new(),
+            gathered: Vec::new(),
+            irradiance: Vec::new(),
+            close: Vec::new(),
             back_share: 0.0,
             num_hemicubes: 0,
         }
@@ -117,11 +137,9 @@ impl<'a> Gatherer<'a> {
                 next += 1;
             }
             let viewpoints: Vec<Viewpoint> = chosen.iter().map(|&site| sites[site as usize]).collect();
-            let sights = map_rows(method, &viewpoints, &go_on, |index, row| {
-                see(row, &viewpoints[index], self.radiosity, &self.centroids)
-            })?;
-            for ((&site, viewpoint), sight) in chosen.iter().zip(&viewpoints).zip(&sights) {
-                gathered.enter(site as usize, sight);
+            let sights = map_rows(method, &viewpoints, &go_on, |index, row| self.see(row, &viewpoints[index]))?;
+            for ((&site, viewpoint), sight) in chosen.iter().zip(&viewpoints).zip(sights) {
+                gathered.enter(site as usize, &sight);
                 self.remember(viewpoint, sight);
             }
             progress.report(Stage::Gather, next as f32 / order.len() as f32);
@@ -130,13 +148,51 @@ impl<'a> Gatherer<'a> {
         Ok(gathered)
     }
 
-    fn remember(&mut self, viewpoint: &Viewpoint, sight: &Sight) {
+    /// Gathers anew, at sites that were gathered at, what close elements reflect now that the light of vertices is known:
+    /// `direct` and `gathered` are that of the light vertices, whose sites are `sites`.
+    pub fn settle_contacts(&mut self, sites: &[Viewpoint], direct: &Field, gathered: &mut Gathered) {
+        for _ in 0..CONTACT_ROUNDS {
+            self.contacts.learn(direct, &gathered.indirect, &gathered.is_valid);
+            let num_groups = self.radiosity.num_groups().max(1);
+            let (contacts, records, close) = (&self.contacts, &self.records, &self.close);
+            let corrected = self.irradiance.par_chunks_mut(num_groups).zip(self.gathered.par_chunks(num_groups));
+            corrected.enumerate().for_each(|(r, (irradiance, gathered))| {
+                let first = r.checked_sub(1).map_or(0, |before| records[before].end_of_contacts);
+                irradiance.copy_from_slice(gathered);
+                contacts.correct(&close[first..records[r].end_of_contacts], records[r].place, irradiance);
+            });
+            self.blend(sites, gathered);
+        }
+    }
+
+    /// Irradiance, back faces, distances and contacts from one row.
+    fn see(&self, row: &Row, viewpoint: &Viewpoint) -> Sight {
+        let mut irradiance = vec![Vec3::ZERO; self.radiosity.num_groups()];
+        let (mut inverse_distance, mut seen) = (0.0, 0.0);
+        for entry in &row.entries {
+            let element = entry.element.index();
+            for (sum, &radiosity) in irradiance.iter_mut().zip(self.radiosity.at(element)) {
+                *sum += entry.factor * radiosity;
+            }
+            inverse_distance += entry.factor * self.centroids[element].distance(viewpoint.position).recip();
+            seen += entry.factor;
+        }
+        let distance = if inverse_distance > 0.0 { seen / inverse_distance } else { f32::MAX };
+        let (contacts, nearest) = self.contacts.of(row, viewpoint.position);
+        Sight { irradiance, contacts, back: row.back, distance, nearest }
+    }
+
+    fn remember(&mut self, viewpoint: &Viewpoint, sight: Sight) {
         self.back_share += sight.back;
         self.num_hemicubes += 1;
-        if sight.back <= MAX_BACK_SHARE && self.settings.tolerance > 0.0 {
-            self.cache.insert(viewpoint, sight.distance, sight.nearest, self.places.len() as u32);
-            self.places.push(viewpoint.position);
-            self.records.extend(&sight.irradiance);
+        if sight.back <= MAX_BACK_SHARE {
+            self.cache.insert(viewpoint, sight.distance, sight.nearest, self.records.len() as u32);
+            let Sight { mut irradiance, contacts, .. } = sight;
+            self.gathered.extend(&irradiance);
+            self.contacts.correct(&contacts, viewpoint.position, &mut irradiance);
+            self.irradiance.extend(irradiance);
+            self.close.extend(contacts);
+            self.records.push(Record { place: viewpoint.position, end_of_contacts: self.close.len() });
         }
     }
 
@@ -154,8 +210,8 @@ impl<'a> Gatherer<'a> {
             *is_known = true;
             sums.fill(Vec3::ZERO);
             for &(record, weight) in &*weights {
-                let record = record as usize * num_groups;
-                sums.iter_mut().zip(&self.records[record..]).for_each(|(sum, &value)| *sum += value * weight);
+                let irradiance = &self.irradiance[record as usize * num_groups..];
+                sums.iter_mut().zip(irradiance).for_each(|(sum, &value)| *sum += value * weight);
             }
             sums.iter_mut().for_each(|sum| *sum = sum.max(Vec3::ZERO));
         });
@@ -168,7 +224,7 @@ impl<'a> Gatherer<'a> {
     fn fit_plane(&self, viewpoint: &Viewpoint, weights: &mut [(u32, f32)]) {
         let (x, y) = tangent_frame(viewpoint.normal);
         let offset = |record: u32| {
-            let offset = self.places[record as usize] - viewpoint.position;
+            let offset = self.records[record as usize].place - viewpoint.position;
             Vec2::new(offset.dot(x), offset.dot(y))
         };
         let (mut first, mut second) = (Vec2::ZERO, Mat2::ZERO);
@@ -198,24 +254,6 @@ fn scattered_order(num_sites: usize) -> Vec<u32> {
     let mut order: Vec<u32> = (0..num_sites as u32).collect();
     order.sort_by_key(|&site| hash(site));
     order
-}
-
-/// Irradiance, back faces and harmonic mean distance from one row.
-fn see(row: &Row, viewpoint: &Viewpoint, radiosity: &Field, centroids: &[Vec3]) -> Sight {
-    let mut irradiance = vec![Vec3::ZERO; radiosity.num_groups()];
-    let (mut inverse_distance, mut seen, mut nearest) = (0.0, 0.0, f32::MAX);
-    for entry in &row.entries {
-        let element = entry.element.index();
-        for (sum, &radiosity) in irradiance.iter_mut().zip(radiosity.at(element)) {
-            *sum += entry.factor * radiosity;
-        }
-        let distance = centroids[element].distance(viewpoint.position);
-        inverse_distance += entry.factor * distance.recip();
-        nearest = distance.min(nearest);
-        seen += entry.factor;
-    }
-    let distance = if inverse_distance > 0.0 { seen / inverse_distance } else { f32::MAX };
-    Sight { irradiance, back: row.back, distance, nearest }
 }
 
 impl Gathered {

@@ -7,6 +7,7 @@
 
 pub mod adaptive;
 pub mod cache;
+pub mod contacts;
 pub mod direct;
 pub mod element_light;
 mod emitter;

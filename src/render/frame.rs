@@ -49,8 +49,8 @@ impl LitPasses {
         }
     }
 
-    fn surface(&self, technique: ShadowTechnique) -> &SurfacePass {
-        if technique == ShadowTechnique::Raytraced { &self.surface_traced } else { &self.surface }
+    fn surface(&mut self, technique: ShadowTechnique) -> &mut SurfacePass {
+        if technique == ShadowTechnique::Raytraced { &mut self.surface_traced } else { &mut self.surface }
     }
 }
 

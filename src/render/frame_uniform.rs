@@ -5,7 +5,7 @@ use glam::{Mat4, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
 use super::look::MAX_GROUPS;
-use super::{Look, Shading, ToneMap, View};
+use super::{Look, ToneMap, View};
 use crate::base::ids::GroupId;
 use crate::gpu::{Gpu, SceneBuffers};
 
@@ -57,7 +57,6 @@ impl FrameUniform {
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct ChoicesStorage {
     tone_map: u32,
-    shading: u32,
     num_groups: u32,
 }
 
@@ -67,13 +66,6 @@ impl ChoicesStorage {
             tone_map: match look.tone_map_in_force() {
                 ToneMap::Neutral => 0,
                 ToneMap::Linear => 1,
-            },
-            shading: match look.shading {
-                Shading::Lit => 0,
-                Shading::IrradianceOnly => 1,
-                Shading::Albedo => 2,
-                Shading::Normals => 3,
-                Shading::FalseColour => 4,
             },
             num_groups: scene.num_groups() as u32,
         }
