@@ -2,15 +2,21 @@
 //!
 //! `cargo bench --bench shadows -- [SCENE.glb ...]`; without a scene the built-in gallery. 1280 x 720 pixels, one sample a
 //! pixel and emissive surface, the first camera; the best of a few frames counts, the first is not among them.
+//!
+//! The last two lines are to stand beside other viewers: the stored light alone, and with one spot light under the middle of the
+//! ceiling in place of the scene's own, which throws its shadow by one map of 2048 texels.
 
+use std::f32::consts::FRAC_PI_3;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
+use glam::Vec3;
 use hemicube::baked::{BakedScene, VertexLight};
+use hemicube::base::ids::GroupId;
 use hemicube::gpu::{Gpu, SceneBuffers};
 use hemicube::render::{Exposure, Look, Renderer, ShadowScene, ShadowSettings, ShadowTechnique, View};
-use hemicube::scene::{Camera, Scene, builtin, gltf};
+use hemicube::scene::{Camera, Light, LightKind, Scene, builtin, gltf};
 
 const SIZE: [u32; 2] = [1280, 720];
 /// Frames of which the best counts.
@@ -42,14 +48,36 @@ fn bench(gpu: &Gpu, scene: Scene) {
     println!("{}: {} triangles, {} lights", scene.name, scene.triangles.len(), scene.lights.len());
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
     let baked = BakedScene { scene, light };
+    let spot = with_one_spot(baked.scene.clone());
+    let light = VertexLight::dark(1, spot.vertices.len());
+    let under_spot = Stage::new(gpu, BakedScene { scene: spot, light });
     let stage = Stage::new(gpu, baked);
     let mut times = Vec::new();
     for (technique, name) in TECHNIQUES {
-        let time = stage.milliseconds(gpu, &ShadowSettings::new(technique));
+        let time = stage.milliseconds(gpu, Some(&ShadowSettings::new(technique)));
         times.push(time);
         println!("{name:<18} {time:>8.1} ms  {:>6.2} x none", time / times[0]);
     }
     println!("depth-fail / depth-pass {:.2}", times[3] / times[2]);
+    println!("{:<18} {:>8.1} ms", "stored light", stage.milliseconds(gpu, None));
+    let map = ShadowSettings::new(ShadowTechnique::Map);
+    println!("{:<18} {:>8.1} ms", "and one map", under_spot.milliseconds(gpu, Some(&map)));
+}
+
+/// The scene in the light of one spot under the middle of its ceiling.
+fn with_one_spot(mut scene: Scene) -> Scene {
+    let (low, high) = scene.bounds();
+    let position = (0.5 * (low + high)).with_y(high.y - 0.02 * (high.y - low.y));
+    let kind =
+        LightKind::Spot { position, direction: Vec3::NEG_Y, inner_angle: 0.8 * FRAC_PI_3, outer_angle: FRAC_PI_3 };
+    let intensity = Vec3::splat((high - low).length_squared());
+    scene.lights =
+        vec![Light { name: "spot".to_owned(), kind, intensity, range: None, group: GroupId(0), profile: None }];
+    scene.light_groups = vec!["spot".to_owned()];
+    for material in &mut scene.materials {
+        (material.emission, material.group) = (Vec3::ZERO, None);
+    }
+    scene
 }
 
 /// A scene on the device, seen by its first camera.
@@ -82,10 +110,10 @@ impl Stage {
     }
 
     /// Time of the fastest frame.
-    fn milliseconds(&self, gpu: &Gpu, settings: &ShadowSettings) -> f64 {
+    fn milliseconds(&self, gpu: &Gpu, settings: Option<&ShadowSettings>) -> f64 {
         let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, 1);
         renderer.cast_shadows(Some(Arc::clone(&self.shadows)));
-        let look = Look { shadows: Some(settings.clone()), exposure: Exposure::Ev(0.0), ..Look::default() };
+        let look = Look { shadows: settings.cloned(), exposure: Exposure::Ev(0.0), ..Look::default() };
         let mut best = f64::INFINITY;
         for frame in 0..=FRAMES {
             let start = Instant::now();

@@ -4,6 +4,14 @@
 //
 // Irradiance E is summed at the vertices and interpolated; rho and emission are read per pixel, so textures stay sharp.
 
+// What is shown, fixed when a pipeline is made.
+const SHADING_LIT: u32 = 0u;
+const SHADING_IRRADIANCE_ONLY: u32 = 1u;
+const SHADING_ALBEDO: u32 = 2u;
+const SHADING_NORMALS: u32 = 3u;
+const SHADING_FALSE_COLOUR: u32 = 4u;
+override SHADING: u32 = SHADING_LIT;
+
 const PI: f32 = 3.14159265358979;
 // Largest value that a half float holds, with room for rounding.
 const LARGEST_HALF: f32 = 65000.0;
@@ -84,7 +92,7 @@ fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
     let emission = emission(in.uv);
     let light = max(in.white_radiance, vec3f(0.0)) + direct_radiance(direct);
     let reflectance = select(base * (1.0 - metallic), base, frame.metal_as_diffuse == 1u);
-    switch choices.shading {
+    switch SHADING {
         case SHADING_IRRADIANCE_ONLY: {
             return light;
         }

@@ -6,12 +6,6 @@
 
 const MAX_GROUPS: u32 = 8u;
 
-const SHADING_LIT: u32 = 0u;
-const SHADING_IRRADIANCE_ONLY: u32 = 1u;
-const SHADING_ALBEDO: u32 = 2u;
-const SHADING_NORMALS: u32 = 3u;
-const SHADING_FALSE_COLOUR: u32 = 4u;
-
 const TONE_MAP_NEUTRAL: u32 = 0u;
 const TONE_MAP_LINEAR: u32 = 1u;
 
@@ -43,7 +37,6 @@ struct Frame {
 
 struct Choices {
     tone_map: u32,
-    shading: u32,
     num_groups: u32,
 }
 

@@ -8,6 +8,8 @@ const ALPHA_OPAQUE: u32 = 0u;
 const ALPHA_MASK: u32 = 1u;
 const ALPHA_BLEND: u32 = 2u;
 override ALPHA_MODE: u32 = ALPHA_OPAQUE;
+// Some of the textures is not white.
+override HAS_TEXTURES: bool = true;
 // Masked edges are softened by coverage (needs several samples a pixel).
 override ALPHA_TO_COVERAGE: bool = false;
 
@@ -49,8 +51,11 @@ fn coordinate(slot: Slot, uv: vec4f) -> vec2f {
 
 // Colour and alpha where the mesh has `colour` and both coordinate sets `uv`.
 fn base_colour(colour: vec4f, uv: vec4f) -> vec4f {
-    return material.base_colour * colour
-        * textureSample(base_texture, base_sampler, coordinate(material.base_slot, uv));
+    let factor = material.base_colour * colour;
+    if !HAS_TEXTURES {
+        return factor;
+    }
+    return factor * textureSample(base_texture, base_sampler, coordinate(material.base_slot, uv));
 }
 
 // Share of the pixel that the surface fills.
@@ -71,11 +76,17 @@ fn coverage(alpha: f32) -> f32 {
 }
 
 fn metallic(uv: vec4f) -> f32 {
+    if !HAS_TEXTURES {
+        return material.metallic;
+    }
     return material.metallic * textureSample(metallic_texture, metallic_sampler, coordinate(material.metallic_slot, uv)).b;
 }
 
 fn emission(uv: vec4f) -> vec3f {
     let weight = select(group_weight(material.group), vec3f(1.0), material.group == NO_GROUP);
-    return material.emission * weight
-        * textureSample(emissive_texture, emissive_sampler, coordinate(material.emissive_slot, uv)).rgb;
+    let emitted = material.emission * weight;
+    if !HAS_TEXTURES {
+        return emitted;
+    }
+    return emitted * textureSample(emissive_texture, emissive_sampler, coordinate(material.emissive_slot, uv)).rgb;
 }

@@ -50,6 +50,8 @@ pub struct Batch {
     pub alpha_mode: AlphaMode,
     /// Which faces exist.
     pub faces: Faces,
+    /// Its material has textures.
+    pub has_textures: bool,
 }
 
 /// Which faces of a batch's triangles are surfaces.
@@ -197,7 +199,15 @@ pub(super) fn batches(scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> (V
             (true, true) => Faces::FrontOfTwins,
             (true, false) => Faces::Both,
         };
-        batches.push(Batch { indices: start..end, material: same[0].material, alpha_mode: material.alpha_mode, faces });
+        batches.push(Batch {
+            indices: start..end,
+            material: same[0].material,
+            alpha_mode: material.alpha_mode,
+            faces,
+            has_textures: material.base_colour_texture.is_some()
+                || material.metallic_roughness_texture.is_some()
+                || material.emissive_texture.is_some(),
+        });
         start = end;
     }
     (batches, triangles.iter().flat_map(|triangle| triangle.vertices).collect())

@@ -49,8 +49,8 @@ impl LitPasses {
         }
     }
 
-    fn surface(&self, technique: ShadowTechnique) -> &SurfacePass {
-        if technique == ShadowTechnique::Raytraced { &self.surface_traced } else { &self.surface }
+    fn surface(&mut self, technique: ShadowTechnique) -> &mut SurfacePass {
+        if technique == ShadowTechnique::Raytraced { &mut self.surface_traced } else { &mut self.surface }
     }
 }
 
@@ -96,6 +96,23 @@ impl Renderer {
     /// Times the passes of the pictures that are drawn from now on.
     pub fn time(&mut self, watch: Option<Arc<Stopwatch>>) {
         self.watch = watch;
+    }
+
+    /// Records part of the direct light of a picture, which the next [`Renderer::draw`] of the same goes on with.
+    pub fn add_light(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        size: [u32; 2],
+        scene: &SceneBuffers,
+        view: &View,
+        look: &Look,
+    ) {
+        let (Some(settings), Some(shadows)) = (&look.shadows, &self.shadows) else { return };
+        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
+        let subject = Subject { frame: &frame, scene, shadows, view, look, watch: self.watch.as_deref() };
+        let lit = self.lit.get_or_insert_with(|| LitPasses::new(gpu, &self.frame_layout, self.samples));
+        lit.light.draw(gpu, encoder, size, subject, settings);
     }
 
     /// Records a picture of `scene` into the whole of `target`, which is `size` pixels wide and high.

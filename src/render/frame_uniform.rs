@@ -5,7 +5,7 @@ use glam::{Mat4, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
 use super::look::MAX_GROUPS;
-use super::{Look, Shading, ToneMap, View};
+use super::{Look, ToneMap, View};
 use crate::base::ids::GroupId;
 use crate::gpu::{Gpu, SceneBuffers};
 
@@ -43,7 +43,8 @@ impl FrameUniform {
             exposure: look.fixed_exposure().unwrap_or(0.0),
             metal_as_diffuse: u32::from(look.metal_as_diffuse),
             num_vertices: scene.num_vertices() as u32,
-            live: 1.0 / (look.shadows.as_ref().and_then(|shadows| shadows.batch).unwrap_or(0) + 1) as f32,
+            live: 1.0
+                / (1 + look.shadows.as_ref().and_then(|shadows| shadows.batch).map_or(0, |batch| batch.number)) as f32,
             padding: [0; 3],
             eye: view.eye(),
             lux_scale: look.lux_scale.uniform(),
@@ -56,7 +57,6 @@ impl FrameUniform {
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct ChoicesStorage {
     tone_map: u32,
-    shading: u32,
     num_groups: u32,
 }
 
@@ -66,13 +66,6 @@ impl ChoicesStorage {
             tone_map: match look.tone_map_in_force() {
                 ToneMap::Neutral => 0,
                 ToneMap::Linear => 1,
-            },
-            shading: match look.shading {
-                Shading::Lit => 0,
-                Shading::IrradianceOnly => 1,
-                Shading::Albedo => 2,
-                Shading::Normals => 3,
-                Shading::FalseColour => 4,
             },
             num_groups: scene.num_groups() as u32,
         }

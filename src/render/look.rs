@@ -28,7 +28,7 @@ pub enum ToneMap {
 }
 
 /// What is shown of a surface.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shading {
     /// The light it sends: emission and reflection.
     Lit,
@@ -40,6 +40,19 @@ pub enum Shading {
     Albedo,
     /// Its shading normal, 0.5 + 0.5 n, shown as it is.
     Normals,
+}
+
+impl Shading {
+    /// `SHADING` of shaders/surface.wgsl.
+    pub(super) fn number(self) -> u32 {
+        match self {
+            Shading::Lit => 0,
+            Shading::IrradianceOnly => 1,
+            Shading::Albedo => 2,
+            Shading::Normals => 3,
+            Shading::FalseColour => 4,
+        }
+    }
 }
 
 /// How a picture of the same light is to look.

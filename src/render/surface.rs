@@ -1,6 +1,8 @@
 //! Surface pass: radiance of every visible point, with the light of the vertices.
 
-use super::Look;
+use std::collections::HashMap;
+
+use super::{Look, Shading};
 use crate::gpu::material_buffers::material_layout;
 use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex, light_layout};
 use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
@@ -47,17 +49,49 @@ const BLEND: AlphaVariant = AlphaVariant {
     to_coverage: false,
 };
 
-/// The pipelines of one kind of alpha.
-struct Pipelines {
-    culled: wgpu::RenderPipeline,
-    two_faced: wgpu::RenderPipeline,
+/// What is fixed when a pipeline is made, so that its shader has no branch for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+struct Variant {
+    shading: Shading,
+    alpha: Alpha,
+    has_textures: bool,
+    culls: bool,
+}
+
+/// How alpha acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Alpha {
+    Opaque,
+    Mask,
+    Blend,
+}
+
+impl Variant {
+    fn new(batch: &Batch, look: &Look) -> Self {
+        Self {
+            shading: look.shading,
+            alpha: match batch.alpha_mode {
+                AlphaMode::Opaque => Alpha::Opaque,
+                AlphaMode::Mask { .. } => Alpha::Mask,
+                AlphaMode::Blend => Alpha::Blend,
+            },
+            has_textures: batch.has_textures,
+            culls: match batch.faces {
+                Faces::Front => look.cull_back,
+                Faces::FrontOfTwins => true,
+                Faces::Both => false,
+            },
+        }
+    }
 }
 
 /// Surface pass.
 pub struct SurfacePass {
-    opaque: Pipelines,
-    mask: Pipelines,
-    blend: Pipelines,
+    layout: wgpu::PipelineLayout,
+    module: wgpu::ShaderModule,
+    samples: u32,
+    /// Made when they are first needed.
+    pipelines: HashMap<Variant, wgpu::RenderPipeline>,
     /// Of bind group 3, where there is one.
     direct_layout: Option<wgpu::BindGroupLayout>,
 }
@@ -99,7 +133,7 @@ impl Direct {
 }
 
 impl SurfacePass {
-    /// Pipelines for HDR targets with `samples` samples a pixel, and for direct light from `direct`.
+    /// A pass for HDR targets with `samples` samples a pixel, and for direct light from `direct`.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32, direct: Direct) -> Self {
         let direct_layout = direct.layout(gpu);
         let module = direct.shader().module(&gpu.device);
@@ -111,18 +145,13 @@ impl SurfacePass {
             bind_group_layouts: &layouts,
             immediate_size: 0,
         });
-        let is_lit = direct_layout.is_some();
-        let pipelines = |alpha: &AlphaVariant| Pipelines {
-            culled: pipeline(gpu, &layout, &module, samples, alpha, is_lit, Some(wgpu::Face::Back)),
-            two_faced: pipeline(gpu, &layout, &module, samples, alpha, is_lit, None),
-        };
-        Self { opaque: pipelines(&OPAQUE), mask: pipelines(&MASK), blend: pipelines(&BLEND), direct_layout }
+        Self { layout, module, samples, pipelines: HashMap::new(), direct_layout }
     }
 
     /// Clears the targets and draws the scene into them; `direct` is the texture that [`Direct`] promised.
     #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, targets) and what of it")]
     pub fn draw(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
@@ -131,6 +160,11 @@ impl SurfacePass {
         look: &Look,
         direct: Option<&wgpu::TextureView>,
     ) {
+        for variant in scene.batches.iter().map(|batch| Variant::new(batch, look)) {
+            if !self.pipelines.contains_key(&variant) {
+                self.pipelines.insert(variant, self.pipeline(gpu, variant));
+            }
+        }
         let direct = self.direct_layout.as_ref().zip(direct).map(|(layout, view)| bind_direct(gpu, layout, view));
         let mut pass = begin(encoder, targets);
         if direct.is_some() {
@@ -143,24 +177,27 @@ impl SurfacePass {
             pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
         }
         for batch in &scene.batches {
-            pass.set_pipeline(self.pipeline_of(batch, look));
+            pass.set_pipeline(&self.pipelines[&Variant::new(batch, look)]);
             pass.set_bind_group(2, &scene.materials[batch.material.index()], &[]);
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);
         }
     }
 
-    fn pipeline_of(&self, batch: &Batch, look: &Look) -> &wgpu::RenderPipeline {
-        let pipelines = match batch.alpha_mode {
-            AlphaMode::Opaque => &self.opaque,
-            AlphaMode::Mask { .. } => &self.mask,
-            AlphaMode::Blend => &self.blend,
+    fn pipeline(&self, gpu: &Gpu, variant: Variant) -> wgpu::RenderPipeline {
+        let alpha = match variant.alpha {
+            Alpha::Opaque => &OPAQUE,
+            Alpha::Mask => &MASK,
+            Alpha::Blend => &BLEND,
         };
-        let culls = match batch.faces {
-            Faces::Front => look.cull_back,
-            Faces::FrontOfTwins => true,
-            Faces::Both => false,
-        };
-        if culls { &pipelines.culled } else { &pipelines.two_faced }
+        let switch = |is_on: bool| f64::from(u8::from(is_on));
+        let constants = [
+            ("SHADING", f64::from(variant.shading.number())),
+            ("HAS_TEXTURES", switch(variant.has_textures)),
+            ("ALPHA_MODE", alpha.shader_mode),
+            ("ALPHA_TO_COVERAGE", switch(alpha.to_coverage && self.samples > 1)),
+            ("LIT_BY_LIGHTS", switch(self.direct_layout.is_some())),
+        ];
+        pipeline(gpu, &self.layout, &self.module, self.samples, alpha, &constants, variant.culls)
     }
 }
 
@@ -201,20 +238,14 @@ fn pipeline(
     module: &wgpu::ShaderModule,
     samples: u32,
     alpha: &AlphaVariant,
-    is_lit: bool,
-    cull_mode: Option<wgpu::Face>,
+    constants: &[(&str, f64)],
+    culls: bool,
 ) -> wgpu::RenderPipeline {
-    let to_coverage = alpha.to_coverage && samples > 1;
-    let switch = |is_on: bool| f64::from(u8::from(is_on));
-    let constants = [
-        ("ALPHA_MODE", alpha.shader_mode),
-        ("ALPHA_TO_COVERAGE", switch(to_coverage)),
-        ("LIT_BY_LIGHTS", switch(is_lit)),
-    ];
-    let compilation_options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
+    let cull_mode = culls.then_some(wgpu::Face::Back);
     let target = wgpu::ColorTargetState { format: HDR_FORMAT, blend: alpha.blend, write_mask: wgpu::ColorWrites::ALL };
     gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(&format!("surface, {}, {}", alpha.label, if cull_mode.is_some() { "culled" } else { "two-faced" })),
+        label: Some(&format!("surface, {}, {}", alpha.label, if culls { "culled" } else { "two-faced" })),
         layout: Some(layout),
         vertex: wgpu::VertexState {
             module,
@@ -232,7 +263,7 @@ fn pipeline(
         }),
         multisample: wgpu::MultisampleState {
             count: samples,
-            alpha_to_coverage_enabled: to_coverage,
+            alpha_to_coverage_enabled: alpha.to_coverage && samples > 1,
             ..Default::default()
         },
         fragment: Some(wgpu::FragmentState {

@@ -10,6 +10,7 @@ use super::painter::{Painter, texture, view_of};
 use super::still::Exposed;
 use crate::gpu::stopwatch::Laps;
 use crate::gpu::{Gpu, SceneBuffers, Stopwatch};
+use crate::render::shadow::Batch;
 use crate::render::{Look, Overlay, OverlayPass, ShadowScene, ShadowSettings, View};
 
 /// How finely a picture is drawn.
@@ -92,8 +93,8 @@ pub struct Canvas {
 struct Picture {
     sight: Sight,
     detail: Detail,
-    /// Number of the last batch of light samples that was added.
-    batch: Option<u32>,
+    /// The last light samples that were added.
+    batch: Option<Batch>,
     texture: wgpu::Texture,
     /// The same with the shadows of the rival.
     beside: Option<wgpu::Texture>,
@@ -140,9 +141,9 @@ impl Canvas {
         self.picture.as_ref().map(|picture| picture.detail)
     }
 
-    /// Number of the last batch of light samples that was added to the picture.
+    /// The light samples that were added last.
     #[must_use]
-    pub fn batch(&self) -> Option<u32> {
+    pub fn batch(&self) -> Option<Batch> {
         self.picture.as_ref().and_then(|picture| picture.batch)
     }
 
@@ -164,14 +165,24 @@ impl Canvas {
         self.painter.metered_ev(gpu, self.detail()?)
     }
 
-    /// Draws a new picture; with a batch of light samples past the first, that is added to the last.
+    /// Adds part of a batch of light samples; the picture stays as it is until the batch is whole.
+    pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sight: &Sight, batch: Batch) {
+        self.painter.add_light(gpu, encoder, sight, &in_batch(&sight.look, Some(batch)));
+        if let Some(Rival { settings, .. }) = &sight.rival {
+            let look = Look { shadows: Some(settings.clone()), ..sight.look.clone() };
+            self.painter_of_rival(gpu).add_light(gpu, encoder, sight, &in_batch(&look, Some(batch)));
+        }
+        self.picture.iter_mut().for_each(|picture| picture.batch = Some(batch));
+    }
+
+    /// Draws a new picture; light samples of a batch that is not the first are added to the last picture's.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         sight: Sight,
         detail: Detail,
-        batch: Option<u32>,
+        batch: Option<Batch>,
     ) {
         let last = self.picture.take().filter(|last| last.sight.size == sight.size);
         let (texture_of_last, beside_of_last) = last.map_or((None, None), |last| (Some(last.texture), last.beside));
@@ -287,7 +298,7 @@ impl Canvas {
     }
 }
 
-fn in_batch(look: &Look, batch: Option<u32>) -> Look {
+fn in_batch(look: &Look, batch: Option<Batch>) -> Look {
     let shadows = look.shadows.clone().map(|shadows| ShadowSettings { batch, ..shadows });
     Look { shadows, ..look.clone() }
 }

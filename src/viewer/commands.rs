@@ -6,7 +6,7 @@ use glam::Vec3;
 use winit::window::Fullscreen;
 
 use super::camera::Eye;
-use super::panels::{Command, Notice, OpenDialog, Trouble};
+use super::panels::{Command, Found, Notice, OpenDialog, Trouble};
 use super::place::Place;
 use super::walkthrough::Walkthrough;
 use super::worker::Source;
@@ -84,6 +84,7 @@ impl Walkthrough {
             Command::Jump(_)
             | Command::StepCamera(_)
             | Command::FrameAll
+            | Command::ShowWhere(_)
             | Command::FrameInstance(_)
             | Command::SetFieldOfView(_)
             | Command::ToggleWalking => self.travel(command),
@@ -104,8 +105,17 @@ impl Walkthrough {
 
     fn travel(&mut self, command: Command) {
         let [width, height] = self.picture_size;
-        let Some(Place { scene, collider, traveller, camera, .. }) = &mut self.session.place else { return };
+        let Some(Place { scene, collider, traveller, camera, advice, .. }) = &mut self.session.place else { return };
         match command {
+            Command::ShowWhere(number) => {
+                let Some(advice) = advice.get(number) else { return };
+                let last = self.panels.found.filter(|found| found.advice == number);
+                let place = last.map_or(0, |found| (found.place + 1) % advice.places.len().max(1));
+                self.panels.found = Some(Found { advice: number, place });
+                if let Some(bounds) = advice.bounds(place) {
+                    traveller.frame(bounds, width as f32 / height as f32);
+                }
+            }
             Command::FrameAll => traveller.frame_all(collider, width as f32 / height as f32),
             Command::FrameInstance(index) => {
                 if let Some(bounds) = bounds_of(scene, index) {

@@ -8,6 +8,7 @@ use super::solved::Solved;
 use crate::base::ids::{InstanceId, PatchId, TriangleId};
 use crate::render::{Mark, turbo};
 use crate::scene::Scene;
+use crate::scene::doctor::Place;
 
 /// Which wire is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
@@ -34,6 +35,9 @@ const WIRE: [u8; 4] = [20, 24, 30, 150];
 const CHOSEN: [u8; 4] = [255, 176, 64, 90];
 const SHOOTER: [u8; 4] = [255, 80, 60, 170];
 const SHOOTER_EDGE: [u8; 4] = [255, 235, 120, 255];
+const FOUND: [u8; 4] = [255, 70, 200, 255];
+/// Half the width of a cross, metres.
+const POINT_SIZE: f32 = 0.1;
 /// Opacity of the heat map.
 const HEAT_ALPHA: u8 = 225;
 /// What is not seen at all.
@@ -83,6 +87,18 @@ impl Marks {
         self.lines.extend(edges.into_iter().flatten().map(|p| mark(p, SHOOTER_EDGE)));
         for element in members {
             self.face(scene, element, SHOOTER);
+        }
+    }
+
+    /// Marks places that advice is about; points as small crosses.
+    pub fn found(&mut self, places: &[Place]) {
+        for &[a, b] in places.iter().flat_map(|place| &place.lines) {
+            if a == b {
+                let arms = Vec3::AXES.map(|axis| POINT_SIZE * axis);
+                self.lines.extend(arms.iter().flat_map(|&arm| [a - arm, a + arm]).map(|p| mark(p, FOUND)));
+            } else {
+                self.lines.extend([a, b].map(|p| mark(p, FOUND)));
+            }
         }
     }
 

@@ -16,6 +16,8 @@ pub struct Wanted<'a> {
     pub wire: Wire,
     /// Chosen instances.
     pub chosen: BTreeSet<InstanceId>,
+    /// Which advice is shown.
+    pub found: Option<usize>,
     /// Whose form factors are shown.
     pub sight: Option<&'a Arc<PatchSight>>,
     /// Who shoots.
@@ -23,7 +25,7 @@ pub struct Wanted<'a> {
 }
 
 /// What marks were made from: addresses stand for what they point to.
-type Key = (usize, usize, Wire, BTreeSet<InstanceId>, usize, Option<PatchId>);
+type Key = (usize, usize, Wire, BTreeSet<InstanceId>, Option<usize>, usize, Option<PatchId>);
 
 /// The last marks.
 #[derive(Default)]
@@ -41,6 +43,7 @@ impl MarksCache {
             place.solved.as_ref().map_or(0, address),
             wanted.wire,
             wanted.chosen.clone(),
+            wanted.found,
             wanted.sight.map_or(0, |sight| Arc::as_ptr(sight) as usize),
             wanted.shooter,
         );
@@ -67,5 +70,8 @@ fn marks(place: &Place, wanted: &Wanted<'_>) -> Marks {
     }
     wanted.chosen.iter().for_each(|&chosen| marks.chosen(scene, chosen));
     marks.wire(wanted.wire, scene, solved);
+    if let Some(advice) = wanted.found.and_then(|number| place.advice.get(number)) {
+        marks.found(&advice.places);
+    }
     marks
 }

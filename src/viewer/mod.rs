@@ -6,6 +6,7 @@
 //! asks ([`inquiry`]: a reading of the [`meter`], a [`patch_sight`], a [`replay`], a [`still`]) is an [`errand`].
 //! Deliberately absent: any light of its own; everything that is drawn comes from [`crate::render`].
 
+pub mod advice;
 pub mod app;
 pub mod camera;
 pub mod canvas;
@@ -32,6 +33,7 @@ pub mod walk;
 pub mod walkthrough;
 pub mod worker;
 
+mod accumulation;
 mod commands;
 mod default_sky;
 mod difference;

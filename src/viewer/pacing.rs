@@ -26,6 +26,7 @@ pub struct Pacer {
     /// The frame that is being drawn was wanted as soon as the last one was done.
     is_continuous: bool,
     frame_seconds: f32,
+    last_seconds: f32,
     gap_seconds: f32,
     log: Option<BufWriter<File>>,
 }
@@ -49,6 +50,7 @@ impl Pacer {
             ended: now,
             is_continuous: false,
             frame_seconds: 0.0,
+            last_seconds: 0.0,
             gap_seconds: 0.0,
             log: log.map(open).transpose()?,
         })
@@ -87,7 +89,8 @@ impl Pacer {
         let wanted = self.wanted.take().unwrap_or(self.begun);
         // In continuous motion the frame was wanted when the last one was shown: this is the gap between the two.
         let gap = (now - wanted).as_secs_f32();
-        smooth(&mut self.frame_seconds, (now - self.begun).as_secs_f32());
+        self.last_seconds = (now - self.begun).as_secs_f32();
+        smooth(&mut self.frame_seconds, self.last_seconds);
         if self.is_continuous {
             smooth(&mut self.gap_seconds, gap);
         }
@@ -96,6 +99,12 @@ impl Pacer {
             // A full disk shall not end the walk.
             let _ = writeln!(log, "{gap:.6} {}", u8::from(is_baking)).and_then(|()| log.flush());
         }
+    }
+
+    /// Time that the last frame took to draw, seconds.
+    #[must_use]
+    pub fn last_seconds(&self) -> f32 {
+        self.last_seconds
     }
 
     /// Time that a frame takes to draw, smoothed, seconds.

@@ -89,6 +89,12 @@ impl Painter {
         }
     }
 
+    /// Adds part of the direct light of the next fine picture.
+    pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sight: &Sight, look: &Look) {
+        self.fine.cast_shadows(Some(Arc::clone(&sight.shadows)));
+        self.fine.add_light(gpu, encoder, sight.size, &sight.scene, &sight.view, look);
+    }
+
     fn renderers(&mut self) -> impl Iterator<Item = &mut Renderer> {
         [Some(&mut self.fine), self.quick.as_mut().map(|quick| &mut quick.renderer)].into_iter().flatten()
     }

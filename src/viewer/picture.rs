@@ -3,7 +3,7 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::canvas::{Change, Comparison, Detail, Sight};
+use super::canvas::{Change, Detail, Sight};
 use super::errand::Kind;
 use super::marks_cache::Wanted;
 use super::panels::Tab;
@@ -11,8 +11,8 @@ use super::screen::NewPicture;
 use super::shadow_notes;
 use super::still::{self, Subject};
 use super::walkthrough::Walkthrough;
-use crate::render::shadow::{MOST_POINTS, known_fault, num_batches};
-use crate::render::{ShadowSettings, View};
+use crate::render::View;
+use crate::render::shadow::known_fault;
 
 /// A sketch is drawn out when nothing has moved for this long.
 const SETTLE_TIME: Duration = Duration::from_millis(250);
@@ -37,9 +37,8 @@ impl Walkthrough {
             Change::None => {
                 let is_settled = self.settle.is_none_or(|settle| settle <= Instant::now());
                 if !is_settled || canvas.detail() >= Some(at_rest) {
-                    if let Some(batch) = self.next_batch(&sight) {
-                        self.pacer.want();
-                        return Some(NewPicture { sight, detail: Detail::Fine, batch: Some(batch) });
+                    if let Some(more) = self.more_light(&sight) {
+                        return Some(more);
                     }
                     self.keep_still(&sight);
                     return None;
@@ -52,11 +51,8 @@ impl Walkthrough {
         self.inquiry.num_rays = None;
         self.still_due = self.panels.memory.traces_stills.then(|| Instant::now() + STILL_TIME);
         self.note_shadows(&sight);
-        let batch = (detail == Detail::Fine && self.adds_up(&sight)).then_some(0);
-        if batch.is_some() {
-            self.pacer.want();
-        }
-        Some(NewPicture { sight, detail, batch })
+        let batch = (detail == Detail::Fine && self.adds_up(&sight)).then(|| self.begin_batches());
+        Some(NewPicture { sight, detail, batch, is_partial: false })
     }
 
     fn sight(&mut self) -> Option<Sight> {
@@ -70,6 +66,7 @@ impl Walkthrough {
         let wanted = Wanted {
             wire: panels.memory.wire,
             chosen: panels.chosen_instances(),
+            found: panels.found.map(|found| found.advice),
             sight: inquiry.sight.as_ref().filter(|_| panels.shows_heat && panels.memory.tab == Tab::Meter),
             shooter: moment.and_then(|moment| moment.shooter),
         };
@@ -92,34 +89,6 @@ impl Walkthrough {
         let fault = shadows.and_then(|settings| known_fault(&sight.shadows, &sight.view, settings));
         self.inquiry.fault = fault.map(|fault| shadow_notes::in_words(fault, scene));
         self.inquiry.num_light_samples = shadows.map_or(0, |settings| settings.samples(scene).len());
-    }
-
-    /// While the camera rests, more and more points a lamp are added up.
-    fn adds_up(&self, sight: &Sight) -> bool {
-        let is_soft = |settings: &ShadowSettings| {
-            // Lamps with a size have many points, others one.
-            let has_size = self.inquiry.num_light_samples > 0 && settings.light_radius > 0.0
-                || sight.shadows.scene().materials.iter().any(|material| material.is_emissive());
-            has_size && num_batches(settings.light_samples) > 1
-        };
-        let is_difference = sight.rival.as_ref().is_some_and(|rival| rival.comparison == Comparison::Difference);
-        sight.look.shadows.as_ref().is_some_and(is_soft)
-            && !is_difference
-            && !self.panels.memory.traces_stills
-            && self.session.worker().is_none()
-    }
-
-    fn next_batch(&self, sight: &Sight) -> Option<u32> {
-        let next = self.screen.canvas.batch()? + 1;
-        let count = num_batches(sight.look.shadows.as_ref()?.light_samples);
-        (next < count && self.adds_up(sight)).then_some(next)
-    }
-
-    /// Points a lamp so far, and how many there will be.
-    pub(super) fn num_points(&self) -> Option<[u32; 2]> {
-        let count = num_batches(self.panels.light.shadows.light_samples);
-        let done = self.screen.canvas.batch()? + 1;
-        Some([done, count].map(|batches| batches * (MOST_POINTS / count)))
     }
 
     /// Nothing has changed: begins to trace when that has lasted long enough, and where rays show the same light.

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
+use super::advice::Advice;
 use super::camera::Eye;
 use super::collider::Collider;
 use super::panels::ReplaySettings;
@@ -42,7 +43,7 @@ pub struct Place {
     /// The light, once it is solved.
     pub solved: Option<Arc<Solved>>,
     /// What the user should know, with what to do.
-    pub advice: Vec<String>,
+    pub advice: Vec<Advice>,
     /// What is left of the mesh when these are hidden.
     part: Option<(BTreeSet<InstanceId>, Arc<SceneBuffers>)>,
     /// The moment of a recorded bake that is on the device.

@@ -8,6 +8,7 @@ use winit::window::Window;
 
 use super::canvas::{Canvas, Detail, Sight};
 use crate::gpu::Gpu;
+use crate::render::shadow::Batch;
 
 /// Where neither picture nor panels are.
 const EMPTY: wgpu::Color = wgpu::Color { r: 0.05, g: 0.055, b: 0.065, a: 1.0 };
@@ -29,8 +30,10 @@ pub struct NewPicture {
     pub sight: Sight,
     /// How finely.
     pub detail: Detail,
-    /// Which batch of light samples it draws, where they come in batches.
-    pub batch: Option<u32>,
+    /// Which light samples it adds, where they come in batches.
+    pub batch: Option<Batch>,
+    /// More samples of the batch are to come: nothing new is shown.
+    pub is_partial: bool,
 }
 
 /// Panels to draw.
@@ -113,9 +116,10 @@ impl Screen {
                 return Shown::Retry;
             }
         };
-        let is_new = picture.is_some();
+        // Pictures that go on from others take less than their own time.
+        let is_whole = picture.as_ref().is_some_and(|picture| picture.batch.is_none_or(Batch::is_first));
         self.submit(&frame.texture, picture, panels);
-        if is_new {
+        if is_whole {
             self.canvas.read_watch(&self.gpu);
         }
         if self.gpu.is_software() {
@@ -130,8 +134,14 @@ impl Screen {
     fn submit(&mut self, target: &wgpu::Texture, picture: Option<NewPicture>, panels: &PanelShapes) {
         let Gpu { device, queue, .. } = &*self.gpu;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("screen") });
-        if let Some(NewPicture { sight, detail, batch }) = picture {
-            self.canvas.draw(&self.gpu, &mut encoder, sight, detail, batch);
+        match picture {
+            Some(NewPicture { sight, batch: Some(batch), is_partial: true, .. }) => {
+                self.canvas.add_light(&self.gpu, &mut encoder, &sight, batch);
+            }
+            Some(NewPicture { sight, detail, batch, .. }) => {
+                self.canvas.draw(&self.gpu, &mut encoder, sight, detail, batch);
+            }
+            None => {}
         }
         let view = target.create_view(&wgpu::TextureViewDescriptor::default());
         drop(begin_pass(&mut encoder, &view, wgpu::LoadOp::Clear(EMPTY)));

@@ -58,6 +58,8 @@ pub struct Walkthrough {
     remembered: (Memory, Instant),
     /// A still camera was to trace in the last frame.
     pub(super) traced_stills: bool,
+    /// Light samples that are added up in a frame while the camera rests.
+    pub(super) samples_a_frame: usize,
     /// What the eye circles round while a button is held.
     orbit: Option<glam::Vec3>,
 }
@@ -96,6 +98,7 @@ impl Walkthrough {
             marks: MarksCache::default(),
             still_due: None,
             traced_stills: false,
+            samples_a_frame: 1,
             orbit: None,
         })
     }
@@ -129,9 +132,10 @@ impl Walkthrough {
         self.window.set_title(&format!("{} - Hemicube", place.scene.name));
         self.panels.light.reset_groups(&place.scene);
         self.panels.selection = Default::default();
+        self.panels.found = None;
         self.panels.trouble = None;
-        if let Some(advice) = place.advice.first().filter(|advice| *advice == super::default_sky::NOTE) {
-            self.panels.notice = Some(Notice::new(advice.as_str()));
+        if let Some(advice) = place.advice.first().filter(|advice| advice.text == super::default_sky::NOTE) {
+            self.panels.notice = Some(Notice::new(advice.text.as_str()));
         }
         let name = self.session.name();
         if matches!(Source::of(name.clone()), Source::File(_)) {
@@ -261,7 +265,8 @@ impl Walkthrough {
             || panels.dialog.take().is_some()
             || panels.trouble.take().is_some()
             || std::mem::take(&mut panels.tool) != Tool::Look
-            || panels.selection.chosen.take().is_some();
+            || panels.selection.chosen.take().is_some()
+            || panels.found.take().is_some();
     }
 
     fn on_wheel(&mut self, delta: MouseScrollDelta) {

@@ -2,6 +2,7 @@
 
 mod debug;
 mod devices;
+mod laboratory;
 mod light;
 mod map;
 mod pictures;

@@ -6,6 +6,31 @@ use crate::scene::Scene;
 /// Points on each lamp that all batches have together.
 pub const MOST_POINTS: u32 = 256;
 
+/// What one picture adds to those before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Batch {
+    /// Number of the batch, from 0 on.
+    pub number: u32,
+    /// First of its light samples that are added now; 0 in batch 0 begins a new sum.
+    pub first: usize,
+    /// How many are added; until the last of the batch is, no picture comes of it.
+    pub count: usize,
+}
+
+impl Batch {
+    /// A whole batch.
+    #[must_use]
+    pub fn whole(number: u32) -> Self {
+        Self { number, first: 0, count: usize::MAX }
+    }
+
+    /// Nothing was added before it.
+    #[must_use]
+    pub fn is_first(self) -> bool {
+        self.number == 0 && self.first == 0
+    }
+}
+
 /// Batches of `per_lamp` points each, a power of two.
 #[must_use]
 pub fn num_batches(per_lamp: u32) -> u32 {

@@ -96,8 +96,14 @@ pub fn flattening(plane: DVec4, light: DVec4) -> DMat4 {
 pub fn flattened(casters: &Casters, plane: Vec4, light: Vec4, settings: &PlanarSettings, clearance: f32) -> Vec<Vec4> {
     let (plane, light, clearance) = (plane.as_dvec4(), light.as_dvec4(), f64::from(clearance));
     let matrix = flattening(plane, light);
-    let flat = |corner: DVec3| (matrix * corner.extend(1.0)).as_vec4();
-    let height = |corner: DVec3| plane.dot(corner.extend(1.0));
+    let exact_height = |corner: DVec3| plane.dot(corner.extend(1.0));
+    let height = |corner: DVec3| if exact_height(corner).abs() <= clearance { 0.0 } else { exact_height(corner) };
+    // What stands on the plane stays where it is, to the last bit: the foot of a wall is the edge of its floor, and only
+    // the same corners make an edge of which the raster gives each pixel to one side.
+    let flat = |corner: DVec3| match height(corner) {
+        0.0 => corner.as_vec3().extend(1.0),
+        _ => (matrix * corner.extend(1.0)).as_vec4(),
+    };
     let ceiling = if light.w == 0.0 { f64::INFINITY } else { plane.dot(light) - clearance };
     let mut corners = Vec::new();
     let is_chosen = |triangle: &&Caster| settings.casters.is_empty() || settings.casters.contains(&triangle.instance);
@@ -107,7 +113,7 @@ pub fn flattened(casters: &Casters, plane: Vec4, light: Vec4, settings: &PlanarS
             corners.extend(polygon.map(flat));
             continue;
         }
-        if polygon.iter().all(|&corner| height(corner) <= clearance) {
+        if polygon.iter().all(|&corner| height(corner) <= 0.0) {
             continue;
         }
         let above = clip(&polygon, height);
@@ -172,5 +178,23 @@ mod tests {
         assert!(cut.iter().all(|corner| corner.w > 0.0));
         let uncut = PlanarSettings { clips_casters: false, ..cured };
         assert!(flattened(&casters, Vec4::Y, light, &uncut, 1e-3).iter().any(|corner| corner.w < 0.0));
+    }
+
+    #[test]
+    fn the_foot_of_a_wall_stays_where_it_is() {
+        // Coordinates that no product leaves alone.
+        let foot = [Vec3::new(0.1, 0.0, -1.3), Vec3::new(0.1, 1e-7, 1.7)];
+        let positions = vec![foot[0], foot[1], Vec3::new(0.1, 2.0, 0.3)];
+        let triangle = super::super::casters::Caster {
+            corners: [0, 1, 2],
+            parts: 0..0,
+            normals: [Vec3::NEG_X; 3],
+            is_single_sided: false,
+            instance: crate::base::ids::InstanceId(0),
+        };
+        let casters = Casters { positions, triangles: vec![triangle], ..Casters::default() };
+        let light = Vec4::new(-2.0, 4.1, 0.0, 1.0);
+        let shadow = flattened(&casters, Vec4::Y, light, &PlanarSettings::default(), 1e-3);
+        assert!(foot.iter().all(|corner| shadow.contains(&corner.extend(1.0))), "{shadow:?}");
     }
 }

@@ -34,7 +34,7 @@ mod solid;
 mod visible_points;
 mod volume_pipelines;
 
-pub use batch::{MOST_POINTS, num_batches};
+pub use batch::{Batch, MOST_POINTS, num_batches};
 pub use debug::{DebugView, ShadowDebug};
 pub use difference::{Case, Decisions, Judge, ShadowDifference, shadow_difference};
 pub use known_fault::{KnownFault, known_fault};
@@ -74,8 +74,8 @@ pub struct ShadowSettings {
     pub light_samples: u32,
     /// Size that point and spot lights are given, metres; 0 leaves them points.
     pub light_radius: f32,
-    /// Number of the batch of light samples that is added to those before it, from 0 on; none draws all samples at once.
-    pub batch: Option<u32>,
+    /// Light samples that are added to those of the last pictures; none draws all samples at once.
+    pub batch: Option<Batch>,
     /// Of planar shadows.
     pub planar: PlanarSettings,
     /// Of shadow maps.
@@ -89,7 +89,11 @@ impl ShadowSettings {
     #[must_use]
     pub fn samples(&self, scene: &Scene) -> Vec<LightSample> {
         match self.batch {
-            Some(number) => batch_of_samples(scene, self.light_samples, self.light_radius, number),
+            Some(batch) => batch_of_samples(scene, self.light_samples, self.light_radius, batch.number)
+                .into_iter()
+                .skip(batch.first)
+                .take(batch.count)
+                .collect(),
             None => light_samples(scene, self.light_samples, self.light_radius),
         }
     }

@@ -1,20 +1,33 @@
-//! Advice: what the loader and the mesh doctor found, each with what to do.
+//! Advice: what the loader and the mesh doctor found, each with what to do, and where it is.
 
 use egui::Ui;
 
-use super::theme;
+use super::super::advice::Advice;
 use super::widgets::hint;
+use super::{Command, Found, theme};
 
-pub fn advice_ui(ui: &mut Ui, advice: &[String]) {
+pub fn advice_ui(ui: &mut Ui, advice: &[Advice], found: Option<Found>, commands: &mut Vec<Command>) {
     if advice.is_empty() {
         hint(ui, "Nothing to complain about.");
     }
-    for line in advice {
+    for (index, Advice { text, places }) in advice.iter().enumerate() {
         // What was found stands before the first semicolon, what to do after it.
-        let (found, remedy) = line.split_once("; ").unwrap_or((line, ""));
-        ui.add(egui::Label::new(egui::RichText::new(found).color(theme::WARNING)).wrap());
+        let (what, remedy) = text.split_once("; ").unwrap_or((text, ""));
+        ui.add(egui::Label::new(egui::RichText::new(what).color(theme::WARNING)).wrap());
         if !remedy.is_empty() {
             ui.add(egui::Label::new(remedy).wrap());
+        }
+        if !places.is_empty() {
+            ui.horizontal(|ui| {
+                let shown = found.filter(|found| found.advice == index);
+                let text = if shown.is_some() { "Show the next" } else { "Show where" };
+                if ui.small_button(text).on_hover_text("Marks it and flies there; Esc ends it").clicked() {
+                    commands.push(Command::ShowWhere(index));
+                }
+                if let Some(Found { place, .. }) = shown {
+                    ui.weak(format!("{} of {}", place + 1, places.len()));
+                }
+            });
         }
         ui.add_space(3.0);
     }

@@ -23,6 +23,8 @@ pub enum Command {
     Bookmark(u8),
     /// Stand back until all is in view.
     FrameAll,
+    /// Mark what a piece of advice, by its number, is about, and fly to the next place of it.
+    ShowWhere(usize),
     /// Stand back until an instance is in view.
     FrameInstance(usize),
     /// See with another vertical field of view, degrees.

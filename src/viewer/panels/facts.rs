@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use glam::Vec3;
 
+use super::super::advice::Advice;
 use super::super::camera::Eye;
 use super::super::meter::{Grid, Reading};
 use super::super::patch_sight::PatchSight;
@@ -47,7 +48,7 @@ pub struct Facts<'a> {
     /// The certificate of the last bake.
     pub report: Option<&'a Report>,
     /// What the user should know of the scene, with what to do.
-    pub advice: &'a [String],
+    pub advice: &'a [Advice],
     /// The light is solved: it can be measured and saved.
     pub is_solved: bool,
     /// The meter.

@@ -83,6 +83,8 @@ pub struct Panels {
     pub tool: Tool,
     /// Which instances are seen and chosen.
     pub selection: Selection,
+    /// What of the advice is shown.
+    pub found: Option<Found>,
     /// How grids are laid out.
     pub grid: GridSettings,
     /// Form factors of the chosen patch are shown as a heat map.
@@ -109,6 +111,15 @@ pub struct Selection {
     pub chosen: Option<InstanceId>,
     /// Only names with this in them are listed.
     pub filter: String,
+}
+
+/// A place that advice is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Found {
+    /// Number of the advice.
+    pub advice: usize,
+    /// Number of its place.
+    pub place: usize,
 }
 
 /// How grids are laid out.
@@ -141,6 +152,7 @@ impl Panels {
             memory,
             tool: Tool::Look,
             selection: Selection::default(),
+            found: None,
             grid: GridSettings { spacing: 0.5, height: 0.0 },
             shows_heat: true,
             replay: ReplaySettings::default(),
@@ -260,7 +272,7 @@ impl Panels {
         let sections = &mut self.memory.sections;
         section(ui, sections, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, facts, commands));
         section(ui, sections, "Time machine", true, |ui| replay::replay_ui(ui, &mut self.replay, facts, commands));
-        section(ui, sections, "Advice", true, |ui| advice::advice_ui(ui, facts.advice));
+        section(ui, sections, "Advice", true, |ui| advice::advice_ui(ui, facts.advice, self.found, commands));
     }
 
     fn meter_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {

@@ -24,7 +24,9 @@ pub fn apply(ctx: &egui::Context) {
         style.spacing.item_spacing = egui::vec2(8.0, 5.0);
         style.spacing.button_padding = egui::vec2(9.0, 4.0);
         style.spacing.slider_rail_height = 4.0;
-        style.spacing.scroll = egui::style::ScrollStyle::thin();
+        // Numbers at the right edge stay clear of the bar.
+        style.spacing.scroll =
+            egui::style::ScrollStyle { floating_allocated_width: 8.0, ..egui::style::ScrollStyle::thin() };
         // Motion that asks for frames costs the bake; folding at once is as good.
         style.animation_time = 0.0;
     });

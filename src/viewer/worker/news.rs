@@ -7,6 +7,7 @@ use crate::bake::BakeSettings;
 use crate::gpu::SceneBuffers;
 use crate::render::ShadowScene;
 use crate::scene::Scene;
+use crate::viewer::advice::Advice;
 use crate::viewer::collider::Collider;
 use crate::viewer::errand::Finding;
 use crate::viewer::solved::Solved;
@@ -69,5 +70,5 @@ pub struct Loaded {
     /// The file is a bake, with this light: nothing is left to do.
     pub solved: Option<Arc<Solved>>,
     /// What a user should know of the scene, with what to do.
-    pub advice: Vec<String>,
+    pub advice: Vec<Advice>,
 }

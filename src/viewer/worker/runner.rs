@@ -12,7 +12,8 @@ use crate::baked::{self, BakedScene, VertexLight};
 use crate::base::progress::{Progress, Stage};
 use crate::gpu::{Gpu, SceneBuffers};
 use crate::render::ShadowScene;
-use crate::scene::{Scene, doctor};
+use crate::scene::Scene;
+use crate::viewer::advice::Advice;
 use crate::viewer::collider::Collider;
 use crate::viewer::default_sky;
 use crate::viewer::solved::Solved;
@@ -45,10 +46,10 @@ impl Runner {
 
     fn open(&self, source: &Source, settings: &BakeSettings) -> anyhow::Result<()> {
         let mut scene = source.load()?;
-        let mut advice = advice(&scene);
+        let mut advice = Advice::of_scene(&scene);
         if default_sky::is_needed(&scene) {
             default_sky::add(&mut scene);
-            advice.insert(0, default_sky::NOTE.to_owned());
+            advice.insert(0, Advice::new(default_sky::NOTE));
         }
         let (baked, is_baked) = match baked::gltf::from_scene(scene) {
             Ok(baked) => (baked, true),
@@ -82,13 +83,6 @@ impl Runner {
         // Nobody listens once the window is closed.
         let _ = self.window.send_event(News { job: self.number, event });
     }
-}
-
-/// What the loader and the mesh doctor say.
-fn advice(scene: &Scene) -> Vec<String> {
-    let mut lines = scene.notes.clone();
-    lines.extend(doctor::examine(scene).lines());
-    lines
 }
 
 /// A scene as the file has it, without any light.

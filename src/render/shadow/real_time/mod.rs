@@ -128,7 +128,7 @@ impl RealTimeLight {
         settings: &ShadowSettings,
     ) -> wgpu::TextureView {
         let samples = settings.samples(subject.shadows.scene());
-        let goes_on = settings.batch.is_some_and(|batch| batch > 0);
+        let goes_on = settings.batch.is_some_and(|batch| !batch.is_first());
         if settings.technique == ShadowTechnique::Raytraced {
             let raytraced = &mut self.raytraced;
             return subject.work("rays, on the processor", || raytraced.draw(gpu, size, subject, &samples, goes_on));

@@ -13,7 +13,9 @@ use super::*;
 use crate::bake::BakeSettings;
 use crate::base::progress::Stage;
 use crate::patch::MeshSettings;
+use crate::scene::doctor::Place;
 use crate::scene::{Scene, builtin};
+use crate::viewer::advice::Advice;
 use crate::viewer::camera::Eye;
 use crate::viewer::marks::Wire;
 
@@ -267,13 +269,21 @@ fn trouble_is_shown_until_it_is_closed() {
 
 #[test]
 fn advice_stands_before_what_to_do() {
-    static ADVICE: std::sync::OnceLock<Vec<String>> = std::sync::OnceLock::new();
-    let advice = ADVICE.get_or_init(|| vec!["open edges: 3; close gaps between walls".to_owned()]);
+    static ADVICE: std::sync::OnceLock<Vec<Advice>> = std::sync::OnceLock::new();
+    let advice = ADVICE.get_or_init(|| {
+        let place = Place { lines: vec![[Vec3::ZERO, Vec3::X]] };
+        vec![Advice { text: "open edges: 3; close gaps between walls".to_owned(), places: vec![place; 2] }]
+    });
     let mut desk = desk(Facts { advice, ..baked() });
     click(&mut desk, "Solution");
     assert!(
         desk.query_by_label("open edges: 3").is_some() && desk.query_by_label("close gaps between walls").is_some()
     );
+    assert_eq!(click(&mut desk, "Show where"), [Command::ShowWhere(0)]);
+    desk.state_mut().panels.found = Some(Found { advice: 0, place: 1 });
+    desk.run_steps(3);
+    assert!(desk.query_by_label("2 of 2").is_some());
+    assert_eq!(click(&mut desk, "Show the next"), [Command::ShowWhere(0)]);
 }
 
 #[test]
