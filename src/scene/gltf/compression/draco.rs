@@ -67,7 +67,8 @@ fn decode_mesh(bytes: &[u8], num_indices: Option<u64>) -> Result<Mesh, String> {
     let limits = num_indices.map_or(limits, |indices| limits.with_max_faces(indices / 3));
     let mut mesh = Mesh::new();
     let status = MeshDecoder::new().decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh);
-    status.map_err(|error| error.to_string())?;
+    // The decoder breaks its longer sentences into lines.
+    status.map_err(|error| error.to_string().split_whitespace().collect::<Vec<_>>().join(" "))?;
     Ok(mesh)
 }
 
