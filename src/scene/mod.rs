@@ -159,3 +159,21 @@ pub fn area_of(corners: [Vec3; 3]) -> f32 {
 pub fn normal_of(corners: [Vec3; 3]) -> Vec3 {
     edge_cross(corners).normalize_or_zero()
 }
+
+/// It has no area to speak of: its height is rounding beside its longest edge.
+#[must_use]
+pub fn is_degenerate(corners: [Vec3; 3]) -> bool {
+    /// Share of the longest edge below which a height is none.
+    const SHARE: f32 = 1e-7;
+    let [a, b, c] = corners;
+    let longest_squared = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
+    let area = edge_cross(corners).length();
+    area <= SHARE * longest_squared || normal_of(corners) == Vec3::ZERO
+}
+
+/// It is a place that may be meant: finite, and not beyond a million kilometres.
+#[must_use]
+pub fn is_placeable(position: Vec3) -> bool {
+    const LARGEST: f32 = 1e9;
+    position.is_finite() && position.abs().max_element() <= LARGEST
+}

@@ -6,7 +6,7 @@ use glam::{DAffine3, DMat3, Vec3};
 use serde_json::{Value, json};
 
 use super::named;
-use crate::scene::{Instance, Scene, Transform};
+use crate::scene::{Instance, Scene, Transform, is_degenerate, is_placeable};
 
 /// Volume that a transform leaves of a cube as large as its longest axis, below which it flattens things.
 const FLAT: f64 = 1e-9;
@@ -27,7 +27,7 @@ pub(super) struct Branch {
 }
 
 /// The space in which a node tells its mesh.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Space {
     world_from_node: DAffine3,
     node_from_world: DAffine3,
@@ -59,7 +59,20 @@ pub(super) fn branches(scene: &Scene) -> Vec<Branch> {
             transform,
         });
     }
+    bring_back_what_rounding_would_lose(scene, &mut branches);
     branches
+}
+
+/// Meshes far from their node, as skins may pose them, lose slivers to rounding in its space: they get a node of the same name
+/// in the world instead.
+fn bring_back_what_rounding_would_lose(scene: &Scene, branches: &mut Vec<Branch>) {
+    for n in 0..branches.len() {
+        if !branches[n].space.keeps(scene, &branches[n].triangles) {
+            let triangles = std::mem::take(&mut branches[n].triangles);
+            let instance = Instance { name: branches[n].name.clone(), triangles };
+            branches.push(Branch::of_instance(&instance));
+        }
+    }
 }
 
 fn is_invertible(linear: DMat3) -> bool {
@@ -102,6 +115,19 @@ impl Space {
 
     fn of(world_from_node: DAffine3) -> Self {
         Self { world_from_node, node_from_world: world_from_node.inverse() }
+    }
+
+    /// Every triangle of the world is still one after the way into this space and back.
+    fn keeps(&self, scene: &Scene, triangles: &Range<usize>) -> bool {
+        let back = |v: u32| {
+            let local = self.position(scene.vertices[v as usize].position);
+            self.world_from_node.transform_point3(local.as_dvec3()).as_vec3()
+        };
+        let is_kept = |triangle: &crate::scene::Triangle| {
+            let corners = triangle.vertices.map(back);
+            corners.into_iter().all(is_placeable) && !is_degenerate(corners)
+        };
+        *self == Self::WORLD || scene.triangles[triangles.clone()].iter().all(is_kept)
     }
 
     /// What is a front in the world is a back in the node.

@@ -5,13 +5,7 @@ use glam::{DAffine3, DMat3, Vec3};
 use super::error::Cause;
 use super::geometry::Geometry;
 use crate::base::ids::{InstanceId, MaterialId};
-use crate::scene::{Instance, Scene, Triangle, Vertex, VertexAttribute, edge_cross, normal_of};
-
-/// Largest coordinate that is taken for meant, metres.
-const MAX_COORDINATE: f32 = 1e9;
-
-/// A triangle whose height is below this share of its longest edge counts as a line.
-const DEGENERATE_SHARE: f32 = 1e-7;
+use crate::scene::{Instance, Scene, Triangle, Vertex, VertexAttribute, is_degenerate, is_placeable, normal_of};
 
 /// Adds `geometry` to the scene as one instance.
 pub(super) fn place(
@@ -78,7 +72,7 @@ fn add_vertices(
     for &source in sources {
         let vertex = &geometry.vertices[source as usize];
         let position = world_from_mesh.transform_point3(vertex.position.as_dvec3()).as_vec3();
-        if !position.is_finite() || position.abs().max_element() > MAX_COORDINATE {
+        if !is_placeable(position) {
             return Err(Cause::NotFinite(format!("a vertex position of {name:?}")));
         }
         let normal = (normal_matrix * vertex.normal.as_dvec3()).normalize_or_zero().as_vec3();
@@ -110,13 +104,6 @@ fn add_irradiance(scene: &mut Scene, geometry: &Geometry, sources: &[u32], first
     for stored in &mut scene.irradiance {
         stored.values.resize(scene.vertices.len(), Vec3::ZERO);
     }
-}
-
-fn is_degenerate(positions: [Vec3; 3]) -> bool {
-    let [a, b, c] = positions;
-    let longest_squared = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
-    let area = edge_cross(positions).length();
-    area <= DEGENERATE_SHARE * longest_squared || normal_of(positions) == Vec3::ZERO
 }
 
 fn give_missing_normals(scene: &mut Scene, vertices: [u32; 3], normal: Vec3) {

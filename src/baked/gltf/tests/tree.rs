@@ -65,6 +65,19 @@ fn light_comes_back_bit_by_bit_from_a_turned_and_mirrored_node_and_the_mesh_stan
 }
 
 #[test]
+fn slivers_far_from_their_node_are_not_lost() {
+    let mut stored = scene();
+    for vertex in &mut stored.vertices {
+        vertex.position *= 1e-6;
+    }
+    let far = Transform::Parts { translation: [1e3, 0.0, 0.0], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0; 3] };
+    let nodes = vec![NamedNode { name: "far".into(), transform: far, instances: 0..1, ..Default::default() }];
+    let back = reloaded(&scene_to_glb(&Scene { nodes, ..stored.clone() }).expect("small"));
+    assert_eq!(back.triangles.len(), stored.triangles.len());
+    assert_eq!(back.nodes[0].transform, far);
+}
+
+#[test]
 fn a_node_that_flattens_its_mesh_is_brought_back_to_the_world() {
     let mut nodes = tree();
     nodes[1].transform =
