@@ -136,6 +136,12 @@ impl LightSettings {
         Some(Rival { settings, comparison: self.comparison })
     }
 
+    /// Two techniques are shown left and right of a divider.
+    #[must_use]
+    pub fn is_split(&self) -> bool {
+        self.is_real_time && self.rival.is_some() && self.comparison == Comparison::Split
+    }
+
     /// The look of the picture; before the first light is there, everything is shown in an even work light.
     #[must_use]
     pub fn look(&self, is_lit: bool) -> Look {

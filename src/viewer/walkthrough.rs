@@ -27,6 +27,9 @@ use crate::bake::BakeSettings;
 /// Pixels of a touchpad's scroll that count as one notch of a wheel.
 const PIXELS_A_NOTCH: f64 = 40.0;
 
+/// What is this near to the divider of a split screen takes hold of it, points.
+const DIVIDER_REACH: f32 = 7.0;
+
 /// What the user has set is written down at most this often.
 const REMEMBER_INTERVAL: Duration = Duration::from_secs(2);
 
@@ -214,7 +217,11 @@ impl Walkthrough {
     /// a quick click does not wait for.
     fn is_over_picture(&self) -> bool {
         let [width, height] = self.picture_size.map(f64::from);
-        let is_inside = self.look.pointer().is_none_or(|[x, y]| x < width && y < height);
+        let is_on_divider = |x: f64| {
+            let reach = f64::from(DIVIDER_REACH) * self.window.scale_factor();
+            self.panels.light.is_split() && (x - f64::from(self.panels.light.divider) * width).abs() < reach
+        };
+        let is_inside = self.look.pointer().is_none_or(|[x, y]| x < width && y < height && !is_on_divider(x));
         is_inside && !self.gui.has_pointer()
     }
 
