@@ -46,10 +46,10 @@ const BACK: u32 = 1u;
 const FIRST_ELEMENT: u32 = 2u;
 struct Varyings {
     @builtin(position) position: vec4<f32>,
-    @location(0) barycentric: vec3<f32>,
-    @location(1) @interpolate(flat) triangle: u32,
-    @location(2) @interpolate(flat) root: u32,
-    @location(3) @interpolate(flat) back_offset: u32,
+    // Weights of the first two corners. Few locations: software drivers set each up for every triangle.
+    @location(0) weights: vec2<f32>,
+    // Triangle, root of its tree, items to add on its back.
+    @location(1) @interpolate(flat) ids: vec3<u32>,
 }
 
 @vertex
@@ -57,22 +57,23 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) view: u32)
     let corner = index % 3u;
     var out: Varyings;
     out.position = views[view] * vec4<f32>(corners[index].xyz, 1.0);
-    out.barycentric = vec3<f32>(f32(corner == 0u), f32(corner == 1u), f32(corner == 2u));
-    out.triangle = index / 3u;
-    out.root = triangles[out.triangle].root;
-    out.back_offset = triangles[out.triangle].back_offset;
+    out.weights = vec2<f32>(f32(corner == 0u), f32(corner == 1u));
+    let triangle = index / 3u;
+    out.ids = vec3<u32>(triangle, triangles[triangle].root, triangles[triangle].back_offset);
     return out;
 }
 
 @fragment
 fn fragment(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0) u32 {
-    if HAS_CUTOUTS && is_hole(in) {
+    let barycentric = vec3<f32>(in.weights, 1.0 - in.weights.x - in.weights.y);
+    if HAS_CUTOUTS && is_hole(in.ids.x, barycentric, in.position.xy) {
         discard;
     }
-    if !is_front && in.back_offset == 0u {
+    let back_offset = in.ids.z;
+    if !is_front && back_offset == 0u {
         return BACK;
     }
-    return FIRST_ELEMENT + element_at(in.root, in.barycentric) + select(in.back_offset, 0u, is_front);
+    return FIRST_ELEMENT + element_at(in.ids.y, barycentric) + select(back_offset, 0u, is_front);
 }
 
 // The element that holds a barycentric position; see Node in src/patch/tree.rs.
@@ -102,19 +103,18 @@ fn halved(w: vec3<f32>) -> vec3<f32> {
     return vec3<f32>(at_midpoint, select(w.x, rest, w.z > w.y), select(rest, w.x, w.z > w.y));
 }
 
-fn is_hole(in: Varyings) -> bool {
-    let triangle = triangles[in.triangle];
+fn is_hole(index: u32, w: vec3<f32>, pixel: vec2<f32>) -> bool {
+    let triangle = triangles[index];
     if triangle.cutout == 0u {
         return false;
     }
     let cutout = cutouts[triangle.cutout - 1u];
-    let w = in.barycentric;
     let uv = triangle.uv_0 * w.x + triangle.uv_1 * w.y + triangle.uv_2 * w.z;
     let vertex_alpha = dot(unpack4x8unorm(triangle.vertex_alpha).xyz, w);
     let alpha = texel(cutout, uv) * cutout.alpha_factor * vertex_alpha;
     if cutout.cutoff < 0.0 {
         // Screen-door: a pixel is solid with probability alpha.
-        return alpha <= unit_hash(vec2<u32>(in.position.xy) ^ vec2<u32>(in.triangle * 1973u, in.triangle));
+        return alpha <= unit_hash(vec2<u32>(pixel) ^ vec2<u32>(index * 1973u, index));
     }
     return alpha < cutout.cutoff;
 }

@@ -2,9 +2,12 @@
 
 use serde::Serialize;
 
+use crate::baked::VertexLight;
+use crate::base::colour::luminance;
 use crate::base::ids::PatchId;
 use crate::patch::PatchMesh;
 use crate::radiosity::rows::{PatchRow, RowStore};
+use crate::scene::Scene;
 
 /// Share of a patch's view that ends on surfaces that receive: 1 everywhere in a closed room.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -32,6 +35,25 @@ impl Closure {
             max: sums.iter().copied().fold(0.0, f32::max),
         }
     }
+}
+
+/// Light that steps are measured beside even in the dark, as a share of the mean over the vertices.
+const FLOOR: f32 = 0.05;
+
+/// Largest step of light between two vertices of an element, relative to the brighter one: near 1 where the edge of a deep
+/// shadow lies within an element.
+#[must_use]
+pub fn largest_neighbour_step(scene: &Scene, light: &VertexLight) -> f32 {
+    let total: Vec<f32> = (0..scene.vertices.len())
+        .map(|v| light.groups.iter().map(|group| luminance(group.direct[v] + group.indirect[v])).sum())
+        .collect();
+    let floor = FLOOR * total.iter().sum::<f32>() / total.len().max(1) as f32;
+    let step = |[a, b, c]: [u32; 3]| {
+        let [a, b, c] = [a, b, c].map(|v| total[v as usize]);
+        let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+        (high - low) / high.max(floor).max(f32::MIN_POSITIVE)
+    };
+    scene.triangles.iter().map(|triangle| step(triangle.vertices)).fold(0.0, f32::max)
 }
 
 /// How far patches are from seeing each other in the measure of their areas, over all pairs whose rows are both kept.
@@ -73,6 +95,8 @@ pub fn peak_memory() -> Option<u64> {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec3;
+
     use super::*;
     use crate::base::progress::Unwatched;
     use crate::form_factor::hemisphere::Hemispheres;
@@ -94,5 +118,18 @@ mod tests {
         assert!(closure.min < closure.mean && closure.mean < 0.99 && closure.max <= 1.0 + 1e-4, "{closure:?}");
         let residual = reciprocity_residual(&mesh, &rows);
         assert!(residual > 0.0 && residual < 0.1, "{residual}");
+    }
+
+    #[test]
+    fn the_largest_step_is_that_between_the_darkest_and_the_brightest_corner_of_one_triangle() {
+        let mut scene = builtin::cornell();
+        scene.triangles.truncate(2);
+        let (first, second) = (scene.triangles[0].vertices, scene.triangles[1].vertices);
+        let mut light = VertexLight::dark(1, scene.vertices.len());
+        first.into_iter().chain(second).for_each(|v| light.groups[0].indirect[v as usize] = Vec3::splat(8.0));
+        assert_eq!(largest_neighbour_step(&scene, &light), 0.0);
+        light.groups[0].indirect[first[0] as usize] = Vec3::splat(2.0);
+        light.groups[0].direct[first[0] as usize] = Vec3::splat(4.0);
+        assert!((largest_neighbour_step(&scene, &light) - 0.25).abs() < 1e-6);
     }
 }

@@ -36,7 +36,7 @@ pub use report::{Flux, Memory, Report};
 pub use settings::{BakeSettings, Quality, Solver};
 pub use watch::{Seconds, Watch};
 
-use certificate::{Closure, peak_memory, reciprocity_residual};
+use certificate::{Closure, largest_neighbour_step, peak_memory, reciprocity_residual};
 use method::Seer;
 use refinement::Lighting;
 use settings::PENUMBRA_RAYS_ON_ELEMENTS;
@@ -173,6 +173,7 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         energy: solution.energy.into(),
         closure,
         reciprocity_residual,
+        largest_neighbour_step: largest_neighbour_step(&baked.scene, &baked.light),
         backface_share,
         hidden_vertices: gathered.is_valid.iter().filter(|valid| !**valid).count(),
         seconds: Seconds { form_factors: form_factor_seconds, ..clock.seconds },

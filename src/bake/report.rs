@@ -51,6 +51,8 @@ pub struct Report {
     pub closure: Closure,
     /// How far the form factors between patches are from A_i F_ij = A_j F_ji.
     pub reciprocity_residual: f64,
+    /// Largest step of light between two vertices of an element, relative to the brighter one.
+    pub largest_neighbour_step: f32,
     /// Share of back faces that the gathering sites saw.
     pub backface_share: f32,
     /// Sites found inside or behind something.

@@ -4,17 +4,15 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use glam::{UVec3, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use wgpu::util::DeviceExt;
 
+use super::chunks::{CHUNK, bounds_of, spatial_order};
 use super::faces::{Bounds, Frustum};
 use crate::base::ids::{MaterialId, TriangleId};
 use crate::gpu::Gpu;
 use crate::patch::{Node, PatchMesh};
 use crate::scene::{AlphaMode, Scene, Wrap};
-
-/// Triangles that are culled together.
-const CHUNK: usize = 64;
 
 /// Vertices a draw call: software drivers touch all of them again for every few clipped triangles.
 const MAX_VERTICES: u32 = 3 * 512;
@@ -93,34 +91,6 @@ impl Geometry {
             ranges.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.start.cmp(&b.1.start)));
         }
     }
-}
-
-/// All triangles along a Morton curve through their centroids, so that chunks are compact.
-fn spatial_order(scene: &Scene) -> Vec<TriangleId> {
-    let (low, high) = scene.bounds();
-    let scale = 1023.0 / (high - low).max(Vec3::splat(1e-6));
-    let mut order: Vec<TriangleId> = (0..scene.triangles.len()).map(TriangleId::new).collect();
-    order.sort_by_cached_key(|&t| {
-        let [a, b, c] = scene.corners(t);
-        morton((((a + b + c) / 3.0 - low) * scale).as_uvec3())
-    });
-    order
-}
-
-/// Interleaves the low ten bits of three coordinates.
-fn morton(cell: UVec3) -> u32 {
-    let spread = |x: u32| {
-        let x = (x | x << 16) & 0x0300_00ff;
-        let x = (x | x << 8) & 0x0300_f00f;
-        let x = (x | x << 4) & 0x030c_30c3;
-        (x | x << 2) & 0x0924_9249
-    };
-    spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2
-}
-
-fn bounds_of(points: impl Iterator<Item = Vec3>) -> Bounds {
-    let empty = Bounds { low: Vec3::splat(f32::INFINITY), high: Vec3::splat(f32::NEG_INFINITY) };
-    points.fold(empty, |bounds, p| Bounds { low: bounds.low.min(p), high: bounds.high.max(p) })
 }
 
 /// Alpha channels of the materials that let light through, gathered while triangles are described.
@@ -219,18 +189,5 @@ mod gpu_data {
         pub alpha_factor: f32,
         pub cutoff: f32,
         pub padding_2: u32,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn morton_codes_interleave() {
-        assert_eq!(morton(UVec3::new(1, 0, 0)), 1);
-        assert_eq!(morton(UVec3::new(0, 1, 0)), 2);
-        assert_eq!(morton(UVec3::new(0, 0, 1)), 4);
-        assert_eq!(morton(UVec3::new(1023, 1023, 1023)), (1 << 30) - 1);
     }
 }

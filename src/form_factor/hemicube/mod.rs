@@ -7,6 +7,7 @@
 //! Source: Cohen, Greenberg 1985, "The Hemi-Cube: a radiosity solution for complex environments".
 
 mod atlas;
+mod chunks;
 mod delta;
 mod faces;
 mod geometry;

@@ -1,0 +1,111 @@
+//! Triangles in chunks that are drawn or left out together, each as compact as can be.
+//!
+//! Source: MacDonald, Booth 1990, "Heuristics for ray tracing using space subdivision" (the surface area heuristic).
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use super::faces::Bounds;
+use crate::base::ids::TriangleId;
+use crate::scene::Scene;
+
+/// Triangles that are culled together.
+pub(super) const CHUNK: usize = 64;
+
+/// All triangles, chunk by chunk; those of a chunk, and chunks, lie near those beside them.
+pub(super) fn spatial_order(scene: &Scene) -> Vec<TriangleId> {
+    let placed = |t: usize| {
+        let id = TriangleId::new(t);
+        let corners = scene.corners(id);
+        let bounds = bounds_of(corners.into_iter());
+        Placed { id, bounds, centroid: corners.into_iter().sum::<Vec3>() / 3.0 }
+    };
+    let mut triangles: Vec<Placed> = (0..scene.triangles.len()).map(placed).collect();
+    sort(&mut triangles);
+    triangles.into_iter().map(|triangle| triangle.id).collect()
+}
+
+/// The box round some points; empty where there are none.
+pub(super) fn bounds_of(points: impl Iterator<Item = Vec3>) -> Bounds {
+    points.fold(EMPTY, |bounds, p| Bounds { low: bounds.low.min(p), high: bounds.high.max(p) })
+}
+
+const EMPTY: Bounds = Bounds { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
+
+#[derive(Clone, Copy)]
+struct Placed {
+    id: TriangleId,
+    bounds: Bounds,
+    centroid: Vec3,
+}
+
+/// Parts the triangles in two between chunks, where the boxes of both parts have the least area for what they hold, and
+/// each part in turn.
+fn sort(triangles: &mut [Placed]) {
+    if triangles.len() <= CHUNK {
+        return;
+    }
+    let mut best = (f32::INFINITY, 0, CHUNK);
+    for axis in 0..3 {
+        sort_along(triangles, axis);
+        let costs = costs(triangles);
+        let (cut, &cost) = costs.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1)).expect("two chunks");
+        if cost < best.0 {
+            best = (cost, axis, (cut + 1) * CHUNK);
+        }
+    }
+    let (_, axis, cut) = best;
+    sort_along(triangles, axis);
+    let (low, high) = triangles.split_at_mut(cut);
+    rayon::join(|| sort(low), || sort(high));
+}
+
+fn sort_along(triangles: &mut [Placed], axis: usize) {
+    triangles.par_sort_by(|a, b| a.centroid[axis].total_cmp(&b.centroid[axis]).then(a.id.cmp(&b.id)));
+}
+
+/// Cost of parting after each chunk but the last: area of the box x chunks, of both sides.
+fn costs(triangles: &[Placed]) -> Vec<f32> {
+    let chunks: Vec<Bounds> =
+        triangles.chunks(CHUNK).map(|chunk| chunk.iter().fold(EMPTY, |sum, t| joined(sum, t.bounds))).collect();
+    let running = |bounds: &mut dyn Iterator<Item = &Bounds>| -> Vec<f32> {
+        let grow = |sum: &mut Bounds, next: &Bounds| {
+            *sum = joined(*sum, *next);
+            Some(area(*sum))
+        };
+        bounds.scan(EMPTY, grow).collect()
+    };
+    let (below, above) = (running(&mut chunks.iter()), running(&mut chunks.iter().rev()));
+    let num_chunks = chunks.len();
+    let cost = |cut: usize| below[cut - 1] * cut as f32 + above[num_chunks - cut - 1] * (num_chunks - cut) as f32;
+    (1..num_chunks).map(cost).collect()
+}
+
+fn joined(a: Bounds, b: Bounds) -> Bounds {
+    Bounds { low: a.low.min(b.low), high: a.high.max(b.high) }
+}
+
+fn area(bounds: Bounds) -> f32 {
+    let size = bounds.high - bounds.low;
+    size.x * size.y + size.y * size.z + size.z * size.x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::builtin;
+
+    #[test]
+    fn chunks_hold_every_triangle_once_in_less_room_than_the_file_gives_them() {
+        let scene = builtin::gallery();
+        let order = spatial_order(&scene);
+        let mut sorted = order.clone();
+        sorted.sort_unstable();
+        assert!(sorted.iter().enumerate().all(|(t, id)| id.index() == t) && sorted.len() == scene.triangles.len());
+        let room = |order: &[TriangleId]| -> f32 {
+            let of_chunk = |chunk: &[TriangleId]| area(bounds_of(chunk.iter().flat_map(|t| scene.corners(*t))));
+            order.chunks(CHUNK).map(of_chunk).sum()
+        };
+        assert!(room(&order) < 0.8 * room(&sorted), "{} of {}", room(&order), room(&sorted));
+    }
+}
