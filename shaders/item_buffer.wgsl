@@ -5,19 +5,21 @@
 //
 // Item: 0 nothing, 1 the back of a single-sided surface, else element id + 2.
 
+struct Vertex {
+    @builtin(vertex_index) index: u32,
+    @location(0) position: vec3<f32>,
+    // Root of the triangle's tree, and items to add on its back; 0 where the back is black.
+    @location(1) ids: vec2<u32>,
+}
+
 struct Triangle {
-    root: u32,
-    // Items to add on the back; 0 where the back is black.
-    back_offset: u32,
     // Index into `cutouts` + 1; 0 where the triangle is opaque.
     cutout: u32,
-    padding: u32,
+    // Vertex alpha of the three corners, 8 bits each.
+    vertex_alpha: u32,
     uv_0: vec2<f32>,
     uv_1: vec2<f32>,
     uv_2: vec2<f32>,
-    // Vertex alpha of the three corners, 8 bits each.
-    vertex_alpha: u32,
-    padding_2: u32,
 }
 
 // The alpha channel of a material that lets light through.
@@ -31,12 +33,12 @@ struct Cutout {
     cutoff: f32,
 }
 
-@group(0) @binding(0) var<storage, read> views: array<mat4x4<f32>>;
-@group(0) @binding(1) var<storage, read> corners: array<vec4<f32>>;
-@group(0) @binding(2) var<storage, read> triangles: array<Triangle>;
-@group(0) @binding(3) var<storage, read> tree: array<u32>;
-@group(0) @binding(4) var<storage, read> cutouts: array<Cutout>;
-@group(0) @binding(5) var<storage, read> alphas: array<u32>;
+// One face of one hemicube, at a dynamic offset: software drivers read uniforms once and storage for every vertex.
+@group(0) @binding(0) var<uniform> view: mat4x4<f32>;
+@group(0) @binding(1) var<storage, read> triangles: array<Triangle>;
+@group(0) @binding(2) var<storage, read> tree: array<u32>;
+@group(0) @binding(3) var<storage, read> cutouts: array<Cutout>;
+@group(0) @binding(4) var<storage, read> alphas: array<u32>;
 
 // The scene has surfaces that let light through.
 override HAS_CUTOUTS: bool = false;
@@ -53,13 +55,12 @@ struct Varyings {
 }
 
 @vertex
-fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) view: u32) -> Varyings {
-    let corner = index % 3u;
+fn vertex(in: Vertex) -> Varyings {
+    let corner = in.index % 3u;
     var out: Varyings;
-    out.position = views[view] * vec4<f32>(corners[index].xyz, 1.0);
+    out.position = view * vec4<f32>(in.position, 1.0);
     out.weights = vec2<f32>(f32(corner == 0u), f32(corner == 1u));
-    let triangle = index / 3u;
-    out.ids = vec3<u32>(triangle, triangles[triangle].root, triangles[triangle].back_offset);
+    out.ids = vec3<u32>(in.index / 3u, in.ids);
     return out;
 }
 

@@ -1,6 +1,9 @@
 //! The atlas of one submission: many hemicubes in one pair of textures, drawn in one pass, copied out in one copy.
 
+use std::num::NonZero;
 use std::ops::Range;
+
+use glam::Mat4;
 
 use super::faces::{Frustum, NUM_FACES, cell_rectangle, projections};
 use super::geometry::Geometry;
@@ -11,6 +14,9 @@ use crate::gpu::Gpu;
 pub(super) const ATLAS_WIDTH: u32 = 512;
 /// Pixels down an atlas: one hemicube of the largest size, 64 of the usual one.
 const ATLAS_HEIGHT: u32 = 1536;
+
+/// Bytes from one view to the next: what every device can offset a uniform by.
+const VIEW_STRIDE: usize = 256;
 
 /// Targets and buffers of one submission in flight.
 pub(super) struct Atlas {
@@ -63,16 +69,16 @@ impl Atlas {
         let depth = texture("item depth", wgpu::TextureFormat::Depth32Float, wgpu::TextureUsages::empty());
         let views = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("hemicube views"),
-            size: (layout.capacity() * NUM_FACES * size_of::<[f32; 16]>()) as u64,
-            usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
+            size: (layout.capacity() * NUM_FACES * VIEW_STRIDE) as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        let buffers =
-            [&views, &geometry.corners, &geometry.triangles, &geometry.tree, &geometry.cutouts, &geometry.alphas];
-        let entries: Vec<wgpu::BindGroupEntry<'_>> = (0..)
-            .zip(buffers)
-            .map(|(binding, buffer)| wgpu::BindGroupEntry { binding, resource: buffer.as_entire_binding() })
-            .collect();
+        let view = wgpu::BufferBinding { buffer: &views, offset: 0, size: NonZero::new(size_of::<Mat4>() as u64) };
+        let scene = [&geometry.triangles, &geometry.tree, &geometry.cutouts, &geometry.alphas];
+        let resources =
+            std::iter::once(wgpu::BindingResource::Buffer(view)).chain(scene.map(|buffer| buffer.as_entire_binding()));
+        let entries: Vec<wgpu::BindGroupEntry<'_>> =
+            (0..).zip(resources).map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect();
         let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("item buffer"),
             layout: bindings_layout,
@@ -99,14 +105,18 @@ impl Atlas {
         viewpoints: &[Viewpoint],
         near: f32,
     ) -> wgpu::SubmissionIndex {
-        let faces: Vec<[glam::Mat4; NUM_FACES]> = viewpoints.iter().map(|v| projections(v, near)).collect();
-        gpu.queue.write_buffer(&self.views, 0, bytemuck::cast_slice(faces.as_flattened()));
+        let faces: Vec<[Mat4; NUM_FACES]> = viewpoints.iter().map(|v| projections(v, near)).collect();
+        let mut views = vec![0u8; faces.as_flattened().len() * VIEW_STRIDE];
+        for (view, matrix) in views.chunks_exact_mut(VIEW_STRIDE).zip(faces.as_flattened()) {
+            view[..size_of::<Mat4>()].copy_from_slice(bytemuck::bytes_of(matrix));
+        }
+        gpu.queue.write_buffer(&self.views, 0, &views);
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("hemicubes") });
         {
             let mut pass = self.begin_pass(&mut encoder);
             pass.set_pipeline(pipeline);
-            pass.set_bind_group(0, &self.bindings, &[]);
+            pass.set_vertex_buffer(0, geometry.vertices.slice(..));
             let mut ranges: Vec<(f32, Range<u32>)> = Vec::new();
             for (cell, matrices) in faces.iter().enumerate() {
                 let (left, top) = layout.origin(cell);
@@ -114,10 +124,11 @@ impl Atlas {
                     let (width, height, down) = cell_rectangle(face, layout.n);
                     pass.set_viewport(left as f32, (top + down) as f32, width as f32, height as f32, 0.0, 1.0);
                     pass.set_scissor_rect(left, top + down, width, height);
-                    let view = (cell * NUM_FACES + face) as u32;
+                    let view = (cell * NUM_FACES + face) * VIEW_STRIDE;
+                    pass.set_bind_group(0, &self.bindings, &[view as u32]);
                     geometry.visible_vertices(&Frustum::new(matrix), viewpoints[cell].position, &mut ranges);
                     for (_, range) in &ranges {
-                        pass.draw(range.clone(), view..view + 1);
+                        pass.draw(range.clone(), 0..1);
                     }
                 }
             }

@@ -19,7 +19,7 @@ const MAX_VERTICES: u32 = 3 * 512;
 
 /// Buffers and chunk boxes of one scene.
 pub(super) struct Geometry {
-    pub corners: wgpu::Buffer,
+    pub vertices: wgpu::Buffer,
     pub triangles: wgpu::Buffer,
     pub tree: wgpu::Buffer,
     pub cutouts: wgpu::Buffer,
@@ -35,23 +35,19 @@ impl Geometry {
     pub(super) fn new(gpu: &Gpu, scene: &Scene, mesh: &PatchMesh) -> Self {
         let order = spatial_order(scene);
         let corners = |t: &TriangleId| scene.corners(*t);
-        let positions: Vec<[f32; 4]> = order.iter().flat_map(corners).map(|p| p.extend(1.0).to_array()).collect();
+        let vertices: Vec<gpu_data::Vertex> = order.iter().flat_map(|&t| vertices_of(scene, mesh, t)).collect();
         let chunks = order.chunks(CHUNK).map(|chunk| bounds_of(chunk.iter().flat_map(corners))).collect();
         let mut cutouts = Cutouts::default();
-        let triangles: Vec<gpu_data::Triangle> =
-            order.iter().map(|&t| cutouts.describe_triangle(scene, mesh, t)).collect();
+        let triangles: Vec<gpu_data::Triangle> = order.iter().map(|&t| cutouts.describe_triangle(scene, t)).collect();
         let has_cutouts = !cutouts.records.is_empty();
         cutouts.records.push(gpu_data::Cutout::zeroed());
         cutouts.alphas.resize((cutouts.alphas.len() + 1).next_multiple_of(4), 0);
-        let buffer = |label, contents: &[u8]| {
-            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some(label),
-                contents,
-                usage: wgpu::BufferUsages::STORAGE,
-            })
+        let buffer_for = |usage, label, contents: &[u8]| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
         };
+        let buffer = |label, contents: &[u8]| buffer_for(wgpu::BufferUsages::STORAGE, label, contents);
         Self {
-            corners: buffer("hemicube corners", bytemuck::cast_slice(&positions)),
+            vertices: buffer_for(wgpu::BufferUsages::VERTEX, "hemicube vertices", bytemuck::cast_slice(&vertices)),
             triangles: buffer("hemicube triangles", bytemuck::cast_slice(&triangles)),
             // Empty bindings are not allowed: one node more than there are.
             tree: buffer("hemicube trees", bytemuck::cast_slice(&[mesh.tree.as_slice(), &[Node::default()]].concat())),
@@ -93,6 +89,20 @@ impl Geometry {
     }
 }
 
+/// The corners of a triangle, with what their fragments need to find an element.
+fn vertices_of(scene: &Scene, mesh: &PatchMesh, id: TriangleId) -> [gpu_data::Vertex; 3] {
+    let root = mesh.roots[id.index()];
+    let back_offset = if root.has_backs { root.num_elements } else { 0 };
+    scene.corners(id).map(|p| gpu_data::Vertex { position: p.to_array(), root: root.node.bits(), back_offset })
+}
+
+/// How [`Geometry::vertices`] lie in memory.
+pub(super) const VERTEX_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
+    array_stride: size_of::<gpu_data::Vertex>() as u64,
+    step_mode: wgpu::VertexStepMode::Vertex,
+    attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32x2],
+};
+
 /// Alpha channels of the materials that let light through, gathered while triangles are described.
 #[derive(Default)]
 struct Cutouts {
@@ -102,8 +112,7 @@ struct Cutouts {
 }
 
 impl Cutouts {
-    fn describe_triangle(&mut self, scene: &Scene, mesh: &PatchMesh, id: TriangleId) -> gpu_data::Triangle {
-        let root = mesh.roots[id.index()];
+    fn describe_triangle(&mut self, scene: &Scene, id: TriangleId) -> gpu_data::Triangle {
         let triangle = &scene.triangles[id.index()];
         let material = scene.material_of(id);
         let cutout = match material.alpha_mode {
@@ -114,15 +123,7 @@ impl Cutouts {
         let slot = material.base_colour_texture;
         let uv = vertices.map(|v| slot.map_or(Vec2::ZERO, |slot| slot.coordinate(v.uv)).to_array());
         let alpha_byte = |i: usize| ((vertices[i].colour.w * 255.0).round() as u32).min(255) << (8 * i);
-        gpu_data::Triangle {
-            root: root.node.bits(),
-            back_offset: if root.has_backs { root.num_elements } else { 0 },
-            cutout,
-            padding: 0,
-            uv,
-            vertex_alpha: alpha_byte(0) | alpha_byte(1) | alpha_byte(2),
-            padding_2: 0,
-        }
+        gpu_data::Triangle { cutout, vertex_alpha: alpha_byte(0) | alpha_byte(1) | alpha_byte(2), uv }
     }
 
     fn index_of(&mut self, scene: &Scene, id: MaterialId) -> u32 {
@@ -169,14 +170,18 @@ mod gpu_data {
 
     #[repr(C)]
     #[derive(Clone, Copy, Pod, Zeroable)]
-    pub struct Triangle {
+    pub struct Vertex {
+        pub position: [f32; 3],
         pub root: u32,
         pub back_offset: u32,
+    }
+
+    #[repr(C)]
+    #[derive(Clone, Copy, Pod, Zeroable)]
+    pub struct Triangle {
         pub cutout: u32,
-        pub padding: u32,
-        pub uv: [[f32; 2]; 3],
         pub vertex_alpha: u32,
-        pub padding_2: u32,
+        pub uv: [[f32; 2]; 3],
     }
 
     #[repr(C)]

@@ -18,7 +18,7 @@ use std::collections::VecDeque;
 use rayon::prelude::*;
 
 use self::atlas::{ATLAS_WIDTH, Atlas, Layout};
-use self::geometry::Geometry;
+use self::geometry::{Geometry, VERTEX_LAYOUT};
 use super::{FormFactorError, FormFactors, Row, Viewpoint};
 use crate::gpu::{Gpu, GpuError, shaders};
 use crate::patch::PatchMesh;
@@ -153,20 +153,17 @@ impl FormFactors for Hemicubes<'_> {
 }
 
 fn bindings_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let storage = |binding, visibility| wgpu::BindGroupLayoutEntry {
+    use wgpu::ShaderStages as Stage;
+    let entry = |binding, visibility, ty, has_dynamic_offset| wgpu::BindGroupLayoutEntry {
         binding,
         visibility,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
+        ty: wgpu::BindingType::Buffer { ty, has_dynamic_offset, min_binding_size: None },
         count: None,
     };
-    use wgpu::ShaderStages as Stage;
-    let stages =
-        [Stage::VERTEX, Stage::VERTEX, Stage::VERTEX_FRAGMENT, Stage::FRAGMENT, Stage::FRAGMENT, Stage::FRAGMENT];
-    let entries: Vec<_> = (0..).zip(stages).map(|(binding, stage)| storage(binding, stage)).collect();
+    let storage =
+        |binding| entry(binding, Stage::FRAGMENT, wgpu::BufferBindingType::Storage { read_only: true }, false);
+    let view = entry(0, Stage::VERTEX, wgpu::BufferBindingType::Uniform, true);
+    let entries = [view, storage(1), storage(2), storage(3), storage(4)];
     gpu.device
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("item buffer"), entries: &entries })
 }
@@ -185,7 +182,7 @@ fn pipeline(gpu: &Gpu, bindings_layout: &wgpu::BindGroupLayout, has_cutouts: boo
             module: &module,
             entry_point: Some("vertex"),
             compilation_options: Default::default(),
-            buffers: &[],
+            buffers: &[Some(VERTEX_LAYOUT)],
         },
         primitive: wgpu::PrimitiveState::default(),
         depth_stencil: Some(wgpu::DepthStencilState {
