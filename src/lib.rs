@@ -6,7 +6,8 @@
 //! 0. [`base`]: ids, colour, sampling, progress.
 //! 1. [`scene`]: a glTF file becomes a validated [`scene::Scene`].
 //! 2. [`trace`], [`patch`], [`gpu`], [`baked`]: rays, patches and elements, the device, stored light.
-//! 3. [`form_factor`], [`raytrace`], [`render`]: rows of form factors; traced and drawn pictures of a lit scene.
+//! 3. [`form_factor`], [`raytrace`], [`render`], [`lightmap`]: rows of form factors; traced and drawn pictures of a lit scene;
+//!    its light as a texture.
 //! 4. [`radiosity`]: direct light, progressive refinement, vertex light.
 //! 5. [`bake`]: the whole job as one recipe.
 //! 6. [`viewer`]: the window.
@@ -21,6 +22,7 @@ pub mod patch;
 pub mod trace;
 
 pub mod form_factor;
+pub mod lightmap;
 pub mod raytrace;
 pub mod render;
 

@@ -7,6 +7,7 @@ mod assets;
 mod builtin;
 mod floors;
 mod form_factors;
+mod lightmap;
 mod loader;
 mod meshing;
 mod mirrors;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// Height of each folder or file directly below src/; equals never name each other.
-const FLOORS: [(&str, f32); 14] = [
+const FLOORS: [(&str, f32); 15] = [
     ("base", 0.0),
     ("scene", 1.0),
     ("baked", 2.0),
@@ -12,6 +12,7 @@ const FLOORS: [(&str, f32); 14] = [
     // On a landing of its own: it uploads a BakedScene.
     ("gpu", 2.5),
     ("form_factor", 3.0),
+    ("lightmap", 3.0),
     ("raytrace", 3.0),
     ("render", 3.0),
     ("radiosity", 4.0),

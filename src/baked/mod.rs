@@ -5,6 +5,7 @@
 
 pub mod exposure;
 pub mod gltf;
+pub mod lightmap;
 
 use std::path::PathBuf;
 
@@ -12,6 +13,8 @@ use glam::Vec3;
 use thiserror::Error;
 
 use crate::scene::Scene;
+
+pub use lightmap::{Lightmap, Texels};
 
 /// A bake could not be written.
 #[derive(Debug, Error)]

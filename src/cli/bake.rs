@@ -6,6 +6,7 @@ use anyhow::{Context, Result, bail};
 use clap::Args;
 
 use super::bake_options::{BakeOptions, VariantOption, bake_device, bake_watched, load, positive};
+use super::lightmap::LightmapOptions;
 use super::render::exposure;
 use crate::bake::{BakeSettings, Report};
 use crate::baked;
@@ -32,6 +33,9 @@ pub struct BakeArgs {
     /// How to bake.
     #[command(flatten)]
     pub bake: BakeOptions,
+    /// Whether light is also written as a texture.
+    #[command(flatten)]
+    pub lightmap: LightmapOptions,
     /// Ends when this share of the first reflected power is unshot [default: 0.01, 0.001 or 0.0003 by preset].
     #[arg(long, value_name = "X", value_parser = positive)]
     pub threshold: Option<f32>,
@@ -58,10 +62,12 @@ pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
         Exposure::Auto => baked::exposure::suited(&bake.baked),
     };
     baked::gltf::write(&args.output, &bake.baked, exposure_ev)?;
+    let told = args.lightmap.write(&bake, &scene, &settings, &args.output, exposure_ev)?;
     if let Some(path) = &args.report {
         write_report(path, &bake.report)?;
     }
     if !is_quiet {
+        told.iter().for_each(|line| eprintln!("{line}"));
         let Report { elements, patches, hemicubes, seconds, unshot_share, .. } = &bake.report;
         eprintln!(
             "{}: {elements} elements, {patches} patches, {hemicubes} hemicubes, {:.2} % unshot, {:.1} s; other programs \

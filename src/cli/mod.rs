@@ -5,6 +5,7 @@ pub mod bake_options;
 pub mod form_factors;
 pub mod info;
 mod judge;
+pub mod lightmap;
 pub mod measure;
 mod patch_view;
 pub mod ray_options;

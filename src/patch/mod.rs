@@ -169,6 +169,18 @@ impl PatchMesh {
         element.vertices.map(|v| self.light_vertex_of[v as usize] as usize)
     }
 
+    /// Elements on one side of an input triangle; none on the back of a single-sided one.
+    #[must_use]
+    pub fn elements_of(&self, triangle: TriangleId, is_back: bool) -> &[Element] {
+        let root = self.roots[triangle.index()];
+        let (first, count) = (root.first_element as usize, root.num_elements as usize);
+        match is_back {
+            false => &self.elements[first..][..count],
+            true if root.has_backs => &self.elements[first + count..][..count],
+            true => &[],
+        }
+    }
+
     /// The front element at a barycentric position of an input triangle.
     #[must_use]
     pub fn element_at(&self, triangle: TriangleId, barycentric: Vec3) -> ElementId {

@@ -14,6 +14,25 @@ use super::binary::Binary;
 use super::{Extensions, look, named, node};
 use crate::scene::{AlphaMode, Image, Material, Sampler, Scene, TextureSlot, Wrap};
 
+/// The arrays that tell what surfaces look like.
+pub(super) struct Surfaces {
+    pub images: Vec<Value>,
+    pub samplers: Vec<Value>,
+    pub textures: Vec<Value>,
+    pub materials: Vec<Value>,
+}
+
+/// What the surfaces of a scene look like; those of a bake show the light in their vertex colours.
+pub(super) fn surfaces(scene: &Scene, is_baked: bool, binary: &mut Binary, used: &mut Extensions) -> Surfaces {
+    let unique = unique_images(scene);
+    Surfaces {
+        images: images(&unique, binary),
+        samplers: samplers(scene),
+        textures: textures(scene, &unique),
+        materials: materials(scene, is_baked, used),
+    }
+}
+
 /// The texture slots that a material fills.
 pub(super) fn texture_slots(material: &Material) -> impl Iterator<Item = &TextureSlot> {
     let normal = material.normal_texture.as_ref().map(|(slot, _)| slot);
@@ -22,13 +41,13 @@ pub(super) fn texture_slots(material: &Material) -> impl Iterator<Item = &Textur
 }
 
 /// Images, each once, with their number by address.
-pub(super) struct UniqueImages<'a> {
+struct UniqueImages<'a> {
     images: Vec<&'a Image>,
     number: HashMap<*const Image, usize>,
 }
 
 /// Textures may share an image; it is written once.
-pub(super) fn unique_images(scene: &Scene) -> UniqueImages<'_> {
+fn unique_images(scene: &Scene) -> UniqueImages<'_> {
     let mut unique = UniqueImages { images: Vec::new(), number: HashMap::new() };
     for texture in &scene.textures {
         unique.number.entry(Arc::as_ptr(&texture.image)).or_insert_with(|| {
@@ -40,13 +59,13 @@ pub(super) fn unique_images(scene: &Scene) -> UniqueImages<'_> {
 }
 
 /// The encoded images, unchanged where every viewer can read them, else as PNG.
-pub(super) fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
+fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
     let embedded = |image: &&Image| {
         let is_plain = !image.encoded.is_empty() && matches!(image.mime_type.as_str(), "image/png" | "image/jpeg");
         let (encoded, mime_type) = if is_plain {
             (Cow::Borrowed(&image.encoded), image.mime_type.as_str())
         } else {
-            (Cow::Owned(png(image)), "image/png")
+            (Cow::Owned(png(&image.rgba, image.width, image.height, ExtendedColorType::Rgba8)), "image/png")
         };
         let mut object = named(&image.name);
         object["bufferView"] = json!(binary.push_file(&encoded));
@@ -56,16 +75,17 @@ pub(super) fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Valu
     unique.images.iter().map(embedded).collect()
 }
 
-fn png(image: &Image) -> Vec<u8> {
+/// A PNG file of such pixels.
+pub(super) fn png(pixels: &[u8], width: u32, height: u32, kind: ExtendedColorType) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
     PngEncoder::new(&mut file)
-        .write_image(&image.rgba, image.width, image.height, ExtendedColorType::Rgba8)
+        .write_image(pixels, width, height, kind)
         .expect("an image has as many pixels as it says, and memory takes them");
     file.into_inner()
 }
 
 /// One texture object each, which names its image and its sampler.
-pub(super) fn textures(scene: &Scene, unique: &UniqueImages<'_>) -> Vec<Value> {
+fn textures(scene: &Scene, unique: &UniqueImages<'_>) -> Vec<Value> {
     let samplers = unique_samplers(scene);
     let object = |texture: &crate::scene::Texture| {
         let sampler = samplers.iter().position(|sampler| *sampler == texture.sampler);
@@ -75,7 +95,7 @@ pub(super) fn textures(scene: &Scene, unique: &UniqueImages<'_>) -> Vec<Value> {
 }
 
 /// The different samplers in use.
-pub(super) fn samplers(scene: &Scene) -> Vec<Value> {
+fn samplers(scene: &Scene) -> Vec<Value> {
     unique_samplers(scene).into_iter().map(sampler).collect()
 }
 
@@ -103,7 +123,7 @@ fn sampler(sampler: Sampler) -> Value {
 }
 
 /// All materials; those of a bake show the light in their vertex colours.
-pub(super) fn materials(scene: &Scene, is_baked: bool, used: &mut Extensions) -> Vec<Value> {
+fn materials(scene: &Scene, is_baked: bool, used: &mut Extensions) -> Vec<Value> {
     let object = |material| {
         let object = object(scene, material, used);
         if is_baked { showing_light(object, material, used) } else { object }

@@ -7,19 +7,18 @@ use serde_json::{Map, Value, json};
 
 use super::binary::Binary;
 use super::hierarchy::{Branch, Space};
-use super::look::Look;
 use super::material::texture_slots;
-use super::named;
+use super::{LightOf, lightmap, named};
 use crate::base::ids::MaterialId;
 use crate::scene::{Material, Scene, Vertex};
 
 /// One mesh a branch that has triangles, in their order.
-pub(super) fn meshes(scene: &Scene, branches: &[Branch], look: Option<Look<'_>>, binary: &mut Binary) -> Vec<Value> {
+pub(super) fn meshes(scene: &Scene, branches: &[Branch], light: LightOf<'_>, binary: &mut Binary) -> Vec<Value> {
     let drawn = branches.iter().filter(|branch| !branch.triangles.is_empty());
-    drawn.map(|branch| mesh(scene, look, branch, binary)).collect()
+    drawn.map(|branch| mesh(scene, light, branch, binary)).collect()
 }
 
-fn mesh(scene: &Scene, look: Option<Look<'_>>, branch: &Branch, binary: &mut Binary) -> Value {
+fn mesh(scene: &Scene, light: LightOf<'_>, branch: &Branch, binary: &mut Binary) -> Value {
     let mut parts: BTreeMap<(MaterialId, bool), Vec<[u32; 3]>> = BTreeMap::new();
     for triangle in &scene.triangles[branch.triangles.clone()] {
         let [a, b, c] = triangle.vertices;
@@ -31,7 +30,7 @@ fn mesh(scene: &Scene, look: Option<Look<'_>>, branch: &Branch, binary: &mut Bin
         .map(|((material, is_back_side), triangles)| {
             let (vertices, indices) = renumber(&triangles);
             let mut primitive = json!({
-                "attributes": attributes(scene, look, &branch.space, material, &vertices, binary),
+                "attributes": attributes(scene, light, &branch.space, material, &vertices, binary),
                 "indices": binary.push_indices(&indices, vertices.len()),
                 "material": material.index(),
             });
@@ -66,7 +65,7 @@ fn renumber(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
 /// Accessors of the attributes that say something; what is left out reads back as its default.
 fn attributes(
     scene: &Scene,
-    look: Option<Look<'_>>,
+    light: LightOf<'_>,
     space: &Space,
     material: MaterialId,
     vertices: &[u32],
@@ -78,12 +77,20 @@ fn attributes(
     let used = || vertices.iter().map(|&v| &scene.vertices[v as usize]);
     put("POSITION".into(), binary.push_positions(used().map(|vertex| space.position(vertex.position).to_array())));
     put("NORMAL".into(), binary.push_attribute(used().map(|vertex| space.normal(vertex.normal).to_array())));
-    for set in 0..num_uv_sets(material, used()) {
+    let num_uv_sets = match light {
+        LightOf::Texture { .. } => lightmap::uv_set(material),
+        LightOf::Nothing | LightOf::Vertices(_) => num_uv_sets(material, used()),
+    };
+    for set in 0..num_uv_sets {
         let coordinates = used().map(|vertex| vertex.uv[set].to_array());
         put(format!("TEXCOORD_{set}"), binary.push_attribute(coordinates));
     }
+    if let LightOf::Texture { lightmap, .. } = light {
+        let coordinates = vertices.iter().map(|&v| lightmap.coordinates[v as usize].to_array());
+        put(format!("TEXCOORD_{num_uv_sets}"), binary.push_attribute(coordinates));
+    }
     let is_painted = used().any(|vertex| vertex.colour != Vec4::ONE);
-    if let Some(look) = look {
+    if let LightOf::Vertices(look) = light {
         // COLOR_0 shows the light, and the paint lies beside it. All attributes of ours are triples, because Blender's
         // importer mixes up such as are not alike.
         put(
@@ -96,14 +103,14 @@ fn attributes(
         if used().any(|vertex| vertex.colour.w != 1.0) {
             put("_ALPHA".into(), binary.push_attribute(used().map(|vertex| [vertex.colour.w; 3])));
         }
+        for (g, group) in look.light.groups.iter().enumerate() {
+            for (part, values) in [("DIRECT", &group.direct), ("INDIRECT", &group.indirect)] {
+                let values = vertices.iter().map(|&v| values[v as usize].to_array());
+                put(format!("_IRRADIANCE_{part}_{g}"), binary.push_attribute(values));
+            }
+        }
     } else if is_painted {
         put("COLOR_0".into(), binary.push_attribute(used().map(|vertex| vertex.colour.to_array())));
-    }
-    for (g, group) in look.iter().flat_map(|look| look.light.groups.iter().enumerate()) {
-        for (part, values) in [("DIRECT", &group.direct), ("INDIRECT", &group.indirect)] {
-            let values = vertices.iter().map(|&v| values[v as usize].to_array());
-            put(format!("_IRRADIANCE_{part}_{g}"), binary.push_attribute(values));
-        }
     }
     attributes
 }

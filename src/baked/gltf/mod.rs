@@ -6,6 +6,8 @@
 //! in `extras`: `light_groups` and `exposure_ev` of the glTF scene, `light_group` of lights and emissive materials,
 //! `paint` of materials (what they were), `back_side` of primitives; vertex colours of the scene become `_COLOR` and
 //! `_ALPHA`.
+//! Programs that want light as a texture get a file of their own (`lightmap.rs`).
+//!
 //! Light comes back bit by bit, and so do meshes whose nodes are not turned; others within rounding, because each mesh is told
 //! in the space of its node, where other programs look for it.
 //! Deliberately absent: reading files, which is the loader's alone ([`crate::scene`]).
@@ -14,6 +16,7 @@
 
 mod binary;
 mod hierarchy;
+mod lightmap;
 mod look;
 mod material;
 mod mesh;
@@ -27,7 +30,7 @@ use serde_json::{Map, Value, json};
 
 use self::binary::Binary;
 use self::look::Look;
-use super::{BakedError, BakedScene};
+use super::{BakedError, BakedScene, Lightmap};
 use crate::base::output::write_whole;
 use crate::scene::Scene;
 
@@ -44,8 +47,21 @@ const CHUNK_BINARY: u32 = 0x004e_4942;
 /// # Errors
 /// The folder is not writable, or the scene is larger than a .glb can be.
 pub fn write(path: &Path, baked: &BakedScene, exposure_ev: f32) -> Result<(), BakedError> {
-    let bytes = to_glb(baked, exposure_ev)?;
-    write_whole(path, &bytes).map_err(|source| BakedError::Write { path: path.to_owned(), source })
+    write_bytes(path, &to_glb(baked, exposure_ev)?)
+}
+
+/// Writes a scene with its light in a texture to `path`, as [`write()`] does.
+///
+/// `exposure_ev` is the exposure of all that shines in it: displayed = radiance x 2^EV.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_lightmap(path: &Path, lightmap: &Lightmap, exposure_ev: f32) -> Result<(), BakedError> {
+    write_bytes(path, &lightmap_to_glb(lightmap, exposure_ev)?)
+}
+
+fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), BakedError> {
+    write_whole(path, bytes).map_err(|source| BakedError::Write { path: path.to_owned(), source })
 }
 
 /// The bytes of a bake as .glb.
@@ -54,8 +70,22 @@ pub fn write(path: &Path, baked: &BakedScene, exposure_ev: f32) -> Result<(), Ba
 /// The scene is larger than a .glb can be.
 pub fn to_glb(baked: &BakedScene, exposure_ev: f32) -> Result<Vec<u8>, BakedError> {
     let look = Look { light: &baked.light, exposure: exposure_ev.exp2() };
-    let mut document = Document::of(&baked.scene, Some(look));
+    let mut document = Document::of(&baked.scene, LightOf::Vertices(look));
     document.root["scenes"][0]["extras"]["exposure_ev"] = json!(exposure_ev);
+    document.into_glb()
+}
+
+/// The bytes of a scene with its light in a texture as .glb.
+///
+/// # Errors
+/// The scene is larger than a .glb can be.
+pub fn lightmap_to_glb(lightmap: &Lightmap, exposure_ev: f32) -> Result<Vec<u8>, BakedError> {
+    let exposure = exposure_ev.exp2();
+    let scene = lightmap::shown(lightmap, exposure);
+    let mut document = Document::of(&scene, LightOf::Texture { lightmap, exposure });
+    let extras = &mut document.root["scenes"][0]["extras"];
+    extras["exposure_ev"] = json!(exposure_ev);
+    extras["lightmap_white_lux"] = json!(lightmap::white(lightmap, exposure));
     document.into_glb()
 }
 
@@ -64,7 +94,18 @@ pub fn to_glb(baked: &BakedScene, exposure_ev: f32) -> Result<Vec<u8>, BakedErro
 /// # Errors
 /// The scene is larger than a .glb can be.
 pub fn scene_to_glb(scene: &Scene) -> Result<Vec<u8>, BakedError> {
-    Document::of(scene, None).into_glb()
+    Document::of(scene, LightOf::Nothing).into_glb()
+}
+
+/// Where the light of a scene is told.
+#[derive(Clone, Copy)]
+enum LightOf<'a> {
+    /// Nowhere.
+    Nothing,
+    /// At its vertices.
+    Vertices(Look<'a>),
+    /// In a texture; displayed = radiance x exposure.
+    Texture { lightmap: &'a Lightmap, exposure: f32 },
 }
 
 /// Extensions that the written parts make use of.
@@ -78,22 +119,26 @@ struct Document {
 
 impl Document {
     /// Tells a scene in glTF's arrays; an empty array must not be written.
-    fn of(scene: &Scene, look: Option<Look<'_>>) -> Self {
+    fn of(scene: &Scene, light: LightOf<'_>) -> Self {
         let mut binary = Binary::default();
         let mut extensions = Extensions::new();
         let branches = hierarchy::branches(scene);
-        let meshes = mesh::meshes(scene, &branches, look, &mut binary);
-        let images = material::unique_images(scene);
+        let meshes = mesh::meshes(scene, &branches, light, &mut binary);
+        let is_baked = matches!(light, LightOf::Vertices(_));
+        let mut surfaces = material::surfaces(scene, is_baked, &mut binary, &mut extensions);
+        if let LightOf::Texture { lightmap, exposure } = light {
+            lightmap::add(lightmap, exposure, scene, &mut surfaces, &mut binary, &mut extensions);
+        }
         let mut root = Map::new();
         let mut put = |key: &str, items: Vec<Value>| {
             if !items.is_empty() {
                 root.insert(key.to_owned(), Value::Array(items));
             }
         };
-        put("images", material::images(&images, &mut binary));
-        put("samplers", material::samplers(scene));
-        put("textures", material::textures(scene, &images));
-        put("materials", material::materials(scene, look.is_some(), &mut extensions));
+        put("images", surfaces.images);
+        put("samplers", surfaces.samplers);
+        put("textures", surfaces.textures);
+        put("materials", surfaces.materials);
         put("cameras", node::cameras(scene));
         let (nodes, roots) = node::nodes(scene, &branches);
         put("nodes", nodes);

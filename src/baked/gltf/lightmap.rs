@@ -1,0 +1,101 @@
+//! Light in a texture, as programs that know lightmaps take it: `MOZ_lightmap` on the materials.
+//!
+//! Shown is base colour x texel x intensity / pi, which is what three.js, Hubs and others make of it: a texel is irradiance.
+//! The picture has eight bits a channel and is linear, as the extension wants it; its white is the brightest irradiance, but at
+//! most what shows white paint twice as bright as white. Everything that shines is told at one exposure, so that emission and light
+//! go together. Lights are left out, since their light is in the texture.
+//!
+//! Source: GLTFLightMapLoaderExtension of three.js r188; Hubs, pull request 2375.
+
+use std::f32::consts::{PI, TAU};
+
+use glam::Vec3;
+use image::ExtendedColorType;
+use serde_json::{Value, json};
+
+use super::Extensions;
+use super::binary::Binary;
+use super::material::{Surfaces, png, texture_slots};
+use crate::baked::Lightmap;
+use crate::base::sampling::r2;
+use crate::scene::{Material, Scene};
+
+const EXTENSION: &str = "MOZ_lightmap";
+
+/// The texture coordinate set of the lightmap: the second, or the first that the material has no use for.
+pub(super) fn uv_set(material: &Material) -> usize {
+    texture_slots(material).map(|slot| slot.uv_set + 1).max().unwrap_or(0).max(1)
+}
+
+/// Irradiance of the brightest texel of the picture, lux.
+pub(super) fn white(lightmap: &Lightmap, exposure: f32) -> f32 {
+    let brightest = lightmap.texels.irradiance.iter().map(|light| light.max_element()).fold(0.0, f32::max);
+    if brightest > 0.0 { brightest.min(TAU / exposure) } else { PI / exposure }
+}
+
+/// The scene as it is shown at an exposure: what shines is scaled, lights are gone, backs are triangles of their own.
+pub(super) fn shown(lightmap: &Lightmap, exposure: f32) -> Scene {
+    let mut scene = lightmap.scene.clone();
+    scene.lights.clear();
+    scene.nodes.iter_mut().for_each(|node| node.light = None);
+    for material in &mut scene.materials {
+        material.double_sided = false;
+        material.emission *= exposure;
+        if material.unlit {
+            let alpha = material.base_colour.w;
+            material.base_colour = (material.base_colour.truncate() * exposure).min(Vec3::ONE).extend(alpha);
+        }
+    }
+    scene
+}
+
+/// Adds the picture, and to every lit material the way to it.
+pub(super) fn add(
+    lightmap: &Lightmap,
+    exposure: f32,
+    scene: &Scene,
+    surfaces: &mut Surfaces,
+    binary: &mut Binary,
+    used: &mut Extensions,
+) {
+    let white = white(lightmap, exposure);
+    let picture = binary.push_file(&picture(lightmap, white));
+    surfaces.images.push(json!({ "name": "lightmap", "bufferView": picture, "mimeType": "image/png" }));
+    surfaces.samplers.push(sampler());
+    let (source, sampler) = (surfaces.images.len() - 1, surfaces.samplers.len() - 1);
+    surfaces.textures.push(json!({ "source": source, "sampler": sampler }));
+    let index = surfaces.textures.len() - 1;
+    let lit = scene.materials.iter().zip(&mut surfaces.materials).filter(|(material, _)| !material.unlit);
+    for (material, object) in lit {
+        object["extensions"][EXTENSION] =
+            json!({ "index": index, "texCoord": uv_set(material), "intensity": white * exposure });
+        used.insert(EXTENSION);
+    }
+}
+
+/// Smaller mip levels would mix what lies side by side in the picture only.
+fn sampler() -> Value {
+    const LINEAR: u32 = 9729;
+    const CLAMP: u32 = 33071;
+    json!({ "wrapS": CLAMP, "wrapT": CLAMP, "magFilter": LINEAR, "minFilter": LINEAR })
+}
+
+/// Rounded up or down by a fixed pattern, so that dark slopes are no steps.
+fn picture(lightmap: &Lightmap, white: f32) -> Vec<u8> {
+    let texels = &lightmap.texels;
+    let bytes: Vec<u8> = texels
+        .irradiance
+        .iter()
+        .enumerate()
+        .flat_map(|(texel, &light)| {
+            let threshold = threshold(texel as u32 % texels.width, texel as u32 / texels.width);
+            (255.0 * light / white).to_array().map(|channel| (channel + threshold).clamp(0.0, 255.0) as u8)
+        })
+        .collect();
+    png(&bytes, texels.width, texels.height, ExtendedColorType::Rgb8)
+}
+
+/// Evenly spread between 0 and 1 in every neighbourhood (Roberts 2018, as [`r2`]).
+fn threshold(x: u32, y: u32) -> f32 {
+    (r2(x, 0).x + r2(y, 0).y).fract()
+}

@@ -1,0 +1,77 @@
+//! Light as a texture over the scene as it was loaded: what programs take that know no light at vertices.
+
+use std::io::Cursor;
+
+use glam::{Vec2, Vec3};
+
+use crate::scene::Scene;
+
+/// A scene whose light lies in one texture.
+#[derive(Clone, Debug, Default)]
+pub struct Lightmap {
+    /// The scene, not cut into elements. Double-sided triangles are written out as a front and a back, as in a bake; vertices
+    /// are apart where the texture has a seam.
+    pub scene: Scene,
+    /// Places in the texture `[v]`, of 0 to 1 from its top left corner.
+    pub coordinates: Vec<Vec2>,
+    /// The texture.
+    pub texels: Texels,
+    /// Width of a texel on the surfaces, metres.
+    pub texel_size: f32,
+    /// Mean deviation in luminance from the light at vertices, as a share of the mean luminance.
+    pub deviation: f32,
+}
+
+/// Irradiance in rows from the top.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Texels {
+    /// Texels across.
+    pub width: u32,
+    /// Texels down.
+    pub height: u32,
+    /// Irradiance `[y][x]`, lux per channel, all light groups and both parts together.
+    pub irradiance: Vec<Vec3>,
+}
+
+impl Texels {
+    /// The bytes of an OpenEXR file: lux per channel in whole floats.
+    #[must_use]
+    pub fn to_exr(&self) -> Vec<u8> {
+        let channels = bytemuck::cast_slice(&self.irradiance).to_vec();
+        let picture = image::Rgb32FImage::from_raw(self.width, self.height, channels).expect("three floats a texel");
+        let mut file = Cursor::new(Vec::new());
+        picture.write_to(&mut file, image::ImageFormat::OpenExr).expect("memory takes it");
+        file.into_inner()
+    }
+
+    /// Bilinear sample, as every graphics card takes it.
+    #[must_use]
+    pub fn sample(&self, coordinate: Vec2) -> Vec3 {
+        let at = coordinate * Vec2::new(self.width as f32, self.height as f32) - 0.5;
+        let low = at.floor();
+        let share = at - low;
+        let texel = |x: f32, y: f32| {
+            let inside = |value: f32, size: u32| (value.max(0.0) as usize).min(size as usize - 1);
+            self.irradiance[inside(low.y + y, self.height) * self.width as usize + inside(low.x + x, self.width)]
+        };
+        let top = texel(0.0, 0.0).lerp(texel(1.0, 0.0), share.x);
+        let bottom = texel(0.0, 1.0).lerp(texel(1.0, 1.0), share.x);
+        top.lerp(bottom, share.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texels_are_linear_between_their_centres_and_whole_in_a_file() {
+        let irradiance = [0.0, 1.0, 10.0, 11.0].map(Vec3::splat).to_vec();
+        let texels = Texels { width: 2, height: 2, irradiance };
+        let at = |x, y| texels.sample(Vec2::new(x, y)).x;
+        assert_eq!([at(0.25, 0.25), at(0.75, 0.25), at(0.25, 0.75), at(0.75, 0.75)], [0.0, 1.0, 10.0, 11.0]);
+        let exr = image::load_from_memory(&texels.to_exr()).expect("an EXR file").into_rgb32f();
+        assert_eq!((exr.dimensions(), exr.get_pixel(1, 1).0), ((2, 2), [11.0; 3]));
+        assert_eq!([at(0.5, 0.5), at(0.5, 0.0), at(1.0, 1.0), at(0.0, 0.5)], [5.5, 0.5, 11.0, 5.0]);
+    }
+}

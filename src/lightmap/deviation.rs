@@ -1,0 +1,28 @@
+//! How far a lightmap is from the light that it was made from.
+
+use glam::Vec2;
+
+use super::pieces::Piece;
+use crate::baked::Texels;
+use crate::base::colour::luminance;
+use crate::base::sampling::{r2, triangle_from_square};
+
+/// Places on an element that are looked at.
+const POINTS: u32 = 4;
+
+/// Mean over all surfaces, at places all over the elements, of the deviation in luminance, as a share of the mean luminance.
+pub(super) fn deviation(texels: &Texels, pieces: impl Iterator<Item = Piece>) -> f32 {
+    let size = Vec2::new(texels.width as f32, texels.height as f32);
+    let (mut deviation, mut light) = (0.0, 0.0);
+    for (p, piece) in pieces.enumerate() {
+        let flat = piece.corners.map(|corner| corner.as_vec2());
+        for point in 0..POINTS {
+            let [a, b, c] = triangle_from_square(r2(POINTS * p as u32 + point, 0)).to_array();
+            let stored = luminance(piece.light[0] * a + piece.light[1] * b + piece.light[2] * c);
+            let shown = luminance(texels.sample((flat[0] * a + flat[1] * b + flat[2] * c) / size));
+            deviation += piece.area * f64::from((shown - stored).abs());
+            light += piece.area * f64::from(stored);
+        }
+    }
+    if light > 0.0 { (deviation / light) as f32 } else { 0.0 }
+}
