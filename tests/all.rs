@@ -17,5 +17,6 @@ mod radiosity;
 mod raytrace;
 mod render_command;
 mod shadows;
+mod stopped;
 mod twins;
 mod viewer;

@@ -5,6 +5,7 @@ use super::settings::{BakeSettings, SHOOTING_PX, SHOOTING_RAYS};
 use crate::form_factor::FormFactors;
 use crate::form_factor::hemicube::Hemicubes;
 use crate::form_factor::hemisphere::Hemispheres;
+use crate::form_factor::row_cache::{CachedRows, RowCache};
 use crate::gpu::Gpu;
 use crate::patch::PatchMesh;
 use crate::trace::Tracer;
@@ -36,10 +37,11 @@ pub(super) struct Seer<'a> {
     gpu: Option<&'a Gpu>,
     mesh: &'a PatchMesh,
     tracer: &'a Tracer<'a>,
+    rows: Option<&'a RowCache>,
 }
 
 impl<'a> Seer<'a> {
-    /// Sees by `method`.
+    /// Sees by `method`, and keeps what it sees in `rows` where there is such a cache.
     ///
     /// # Errors
     /// Hemicubes are wanted and there is no device.
@@ -48,12 +50,13 @@ impl<'a> Seer<'a> {
         gpu: Option<&'a Gpu>,
         mesh: &'a PatchMesh,
         tracer: &'a Tracer<'a>,
+        rows: Option<&'a RowCache>,
     ) -> Result<Self, BakeError> {
         let gpu = match method {
             Method::Hemicube => Some(gpu.ok_or(BakeError::NoDevice)?),
             Method::Hemisphere => None,
         };
-        Ok(Self { gpu, mesh, tracer })
+        Ok(Self { gpu, mesh, tracer, rows })
     }
 
     /// Coarse form factors: shooters see patches, not detail.
@@ -68,9 +71,19 @@ impl<'a> Seer<'a> {
 
     /// Hemicubes `size_px` pixels wide on a device, else hemispheres of `num_rays` rays.
     fn with(self, size_px: u32, num_rays: u32) -> Box<dyn FormFactors + 'a> {
-        match self.gpu {
-            Some(gpu) => Box::new(Hemicubes::new(gpu, self.tracer.scene(), self.mesh, size_px)),
-            None => Box::new(Hemispheres::new(self.tracer, self.mesh, num_rays)),
+        let (method, label): (Box<dyn FormFactors + 'a>, _) = match self.gpu {
+            Some(gpu) => (
+                Box::new(Hemicubes::new(gpu, self.tracer.scene(), self.mesh, size_px)),
+                format!("hemicubes of {size_px} px by {}", gpu.name()),
+            ),
+            None => (
+                Box::new(Hemispheres::new(self.tracer, self.mesh, num_rays)),
+                format!("hemispheres of {num_rays} rays"),
+            ),
+        };
+        match self.rows {
+            Some(rows) => Box::new(CachedRows::new(method, &label, self.mesh, rows)),
+            None => method,
         }
     }
 }

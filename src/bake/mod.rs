@@ -2,6 +2,7 @@
 
 mod certificate;
 mod forecast;
+mod last_gather;
 pub mod measure;
 mod method;
 pub mod patch_view;
@@ -16,6 +17,7 @@ use thiserror::Error;
 use crate::baked::BakedScene;
 use crate::base::progress::Stage;
 use crate::form_factor::FormFactorError;
+use crate::form_factor::row_cache::RowCache;
 use crate::gpu::Gpu;
 use crate::patch::{MeshError, PatchMesh};
 use crate::radiosity::Field;
@@ -23,7 +25,7 @@ use crate::radiosity::adaptive::Cut;
 use crate::radiosity::direct::DirectLight;
 use crate::radiosity::element_light::direct_on_elements;
 use crate::radiosity::full_matrix::MatrixTooLarge;
-use crate::radiosity::gather::{Gathered, Gatherer};
+use crate::radiosity::gather::Gathered;
 use crate::radiosity::progressive::Solution;
 use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, vertex_light};
 use crate::radiosity::sites::Sites;
@@ -37,6 +39,7 @@ pub use settings::{BakeSettings, Quality, Solver};
 pub use watch::{Seconds, Watch};
 
 use certificate::{Closure, largest_neighbour_step, peak_memory, reciprocity_residual};
+use last_gather::LitVertices;
 use method::Seer;
 use refinement::Lighting;
 use settings::PENUMBRA_RAYS_ON_ELEMENTS;
@@ -81,6 +84,21 @@ pub enum BakeError {
 /// The scene has no triangles or no light, would need too many elements, hemicubes are wanted without a `gpu`, or the device
 /// failed.
 pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &dyn Watch) -> Result<Bake, BakeError> {
+    bake_with_rows(gpu, scene, settings, None, watch)
+}
+
+/// As [`bake`], taking rows of form factors from `rows` where it has them, and keeping there those that are found: a bake
+/// that was stopped goes on, and one with other colours looks at nothing twice.
+///
+/// # Errors
+/// As [`bake`]; trouble with the cache costs time and not the bake.
+pub fn bake_with_rows(
+    gpu: Option<&Gpu>,
+    scene: &Scene,
+    settings: &BakeSettings,
+    rows: Option<&RowCache>,
+    watch: &dyn Watch,
+) -> Result<Bake, BakeError> {
     if scene.light_groups.is_empty() {
         return Err(BakeError::NoLight(scene.name.clone()));
     }
@@ -102,16 +120,17 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
     let lights = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays);
     let refine = settings.refine(scene, &sizes);
     let sharpen = settings.sharpen(refine, &sizes);
-    let lighting = Lighting { lights: &lights, tracer: &tracer, settings, refine, sharpen, watch };
+    let gather = settings.gather(&sizes);
+    let lighting = Lighting { lights: &lights, tracer: &tracer, settings, refine, sharpen, gather, watch };
     let places = sites.of_light_vertices(&mesh);
-    let (mesh, mut direct) = lighting.refine_by_direct(&mut cut, mesh, &places)?;
+    let (mesh, direct) = lighting.refine_by_direct(&mut cut, mesh, &places)?;
     watch.mesh(&lit_mesh(scene, &mesh, &direct, &Field::zero(direct.num_places(), direct.num_groups())));
     let few_rays = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS);
     let on_elements = direct_on_elements(&mesh, &sites, &few_rays, &tracer, settings.points_an_element, watch);
     clock.lap(Stage::Direct);
 
     // Carry on what the elements reflect, from patch to patch.
-    let seer = Seer::new(method, gpu, &mesh, &tracer)?;
+    let seer = Seer::new(method, gpu, &mesh, &tracer, rows)?;
     let show = |solution: &Solution| watch.light(&vertex_light(&mesh, &direct, &estimate(&mesh, solution)));
     let task = Task { mesh: &mesh, sites, seer, settings, watch, show: &show };
     let Solved { solution, rows, radiosity, num_passes, unshot_share, form_factor_seconds } =
@@ -123,25 +142,11 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
 
     // Collect the indirect light at the vertices, with more of them where it changes.
     let places = sites.of_light_vertices(&mesh);
-    let mut gathered = Gathered::nothing(places.len(), scene.light_groups.len());
-    let (mut num_hemicubes, mut backface_share) = (num_viewpoints, 0.0);
-    let mut refined = None;
-    if let Some(radiosity) = radiosity {
-        let mut gathering = seer.gathering(settings);
-        let mut gatherer = Gatherer::new(&mesh, &radiosity, settings.gather(&sizes));
-        gathered = gatherer.at(&mut *gathering, &places, watch)?;
-        if !watch.is_cancelled() {
-            // A pass that was asked for reflects what the one before found, and no more.
-            if settings.passes.is_none() {
-                gatherer.settle_contacts(&places, &direct, &mut gathered);
-            }
-            let light = (direct, gathered);
-            let found = lighting.refine_by_all(&mut cut, mesh.clone(), light, &mut gatherer, &mut *gathering)?;
-            (refined, direct, gathered) = (Some(found.0), found.1, found.2);
-        }
-        num_hemicubes += gatherer.num_hemicubes;
-        backface_share = gatherer.mean_back_share();
-    }
+    let lit = match radiosity {
+        Some(radiosity) => lighting.gather(seer, &mut cut, &mesh, &places, direct, &radiosity)?,
+        None => LitVertices::without_indirect(direct),
+    };
+    let LitVertices { refined, mut direct, gathered, num_hemicubes, backface_share } = lit;
     let mut indirect = completed(&gathered, || estimate(&mesh, &solution));
     if settings.solver == Solver::Gathering && settings.passes == Some(0) {
         // Nothing has been reflected yet.
@@ -164,7 +169,7 @@ pub fn bake(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, watch: &d
         patches: mesh.patches.len(),
         vertices: mesh.light_vertices.len(),
         light_groups: scene.light_groups.clone(),
-        hemicubes: num_hemicubes,
+        hemicubes: num_viewpoints + num_hemicubes,
         hemicube_px: settings.hemicube_px,
         shots: solution.num_shots,
         passes: num_passes,

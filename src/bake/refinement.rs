@@ -9,7 +9,7 @@ use crate::radiosity::Field;
 use crate::radiosity::adaptive::{Cut, Lit, RefineSettings};
 use crate::radiosity::direct::DirectLight;
 use crate::radiosity::element_light::is_inside;
-use crate::radiosity::gather::{Gathered, Gatherer};
+use crate::radiosity::gather::{GatherSettings, Gathered, Gatherer};
 use crate::trace::Tracer;
 
 /// Light that errors are measured beside even in the dark, as a share of the mean over the vertices.
@@ -22,6 +22,7 @@ pub(super) struct Lighting<'a> {
     pub settings: &'a BakeSettings,
     pub refine: RefineSettings,
     pub sharpen: RefineSettings,
+    pub gather: GatherSettings,
     pub watch: &'a dyn Watch,
 }
 
@@ -43,17 +44,18 @@ impl Lighting<'_> {
         Ok((mesh, lit.light))
     }
 
-    /// Refines a mesh with its `direct` and `gathered` light on until all of it is linear along its edges; both follow.
+    /// Refines a mesh with its `direct` and `gathered` light on until all of it is linear along its edges; none where that is
+    /// not wanted, or no longer.
     pub(super) fn refine_by_all(
         &self,
         cut: &mut Cut<'_>,
-        mesh: PatchMesh,
-        (direct, gathered): (Field, Gathered),
+        mesh: &PatchMesh,
+        (direct, gathered): (&Field, &Gathered),
         gatherer: &mut Gatherer<'_>,
         method: &mut dyn FormFactors,
-    ) -> Result<(PatchMesh, Field, Gathered), BakeError> {
+    ) -> Result<Option<(PatchMesh, Field, Gathered)>, BakeError> {
         if !self.is_wanted() {
-            return Ok((mesh, direct, gathered));
+            return Ok(None);
         }
         let num_groups = direct.num_groups();
         let is_known = |gathered: &Gathered, l: usize| gathered.is_valid[l] && gathered.is_known[l];
@@ -63,20 +65,23 @@ impl Lighting<'_> {
             let light = Field::from_values(2 * num_groups, places.clone().flat_map(columns).collect());
             Lit { light, is_open: places.map(|l| is_known(gathered, l)).collect() }
         };
-        let lit = join(&direct, &gathered);
+        let lit = join(direct, gathered);
         let floor = FLOOR * mean_luminance(&lit.light);
         let mut evaluate = |places: &[Viewpoint]| -> Result<Lit, BakeError> {
             let direct = self.lights.irradiance(places, self.watch);
             Ok(join(&direct, &gatherer.at(method, places, self.watch)?))
         };
-        let (mesh, lit) = cut.refine(mesh, lit, &self.sharpen, floor, &mut evaluate)?;
+        let (mesh, lit) = cut.refine(mesh.clone(), lit, &self.sharpen, floor, &mut evaluate)?;
+        if self.watch.is_cancelled() {
+            // The light of the newest vertices was not found; the mesh as it was has all of its own.
+            return Ok(None);
+        }
         let part = |first: usize| {
             let columns = |l: usize| lit.light.at(l)[first..first + num_groups].iter().copied();
             Field::from_values(num_groups, (0..lit.is_open.len()).flat_map(columns).collect())
         };
-        let is_known = vec![!self.watch.is_cancelled(); lit.is_open.len()];
-        let (direct, indirect) = (part(0), part(num_groups));
-        Ok((mesh, direct, Gathered { indirect, is_valid: lit.is_open, is_known }))
+        let (direct, indirect, is_known) = (part(0), part(num_groups), vec![true; lit.is_open.len()]);
+        Ok(Some((mesh, direct, Gathered { indirect, is_valid: lit.is_open, is_known })))
     }
 
     fn is_wanted(&self) -> bool {

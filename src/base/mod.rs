@@ -1,6 +1,7 @@
 //! Floor 0: what every other floor speaks in. No scene, no GPU.
 
 pub mod colour;
+pub mod fingerprint;
 pub mod ids;
 pub mod output;
 pub mod progress;

@@ -11,7 +11,11 @@ use super::render::exposure;
 use crate::bake::{BakeSettings, Report};
 use crate::baked;
 use crate::base::output::write_whole;
+use crate::form_factor::row_cache::RowCache;
 use crate::render::Exposure;
+
+/// A row cache does not grow beyond this.
+const ROW_CACHE_BYTES: u64 = 1 << 30;
 
 /// Options of `hemicube bake`.
 #[derive(Args, Debug)]
@@ -39,6 +43,10 @@ pub struct BakeArgs {
     /// Ends when this share of the first reflected power is unshot [default: 0.01, 0.001 or 0.0003 by preset].
     #[arg(long, value_name = "X", value_parser = positive)]
     pub threshold: Option<f32>,
+    /// Keeps rows of form factors in this file, up to a gibibyte: a bake that was stopped goes on from there, and one of the
+    /// same geometry with other colours or lamps looks at less.
+    #[arg(long, value_name = "FILE")]
+    pub row_cache: Option<PathBuf>,
     /// Writes the solution's certificate: counts, energy balance, times.
     #[arg(long, value_name = "R.json")]
     pub report: Option<PathBuf>,
@@ -56,7 +64,8 @@ pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
     let preset = args.bake.settings();
     let settings = BakeSettings { threshold: args.threshold.unwrap_or(preset.threshold), ..preset };
     let gpu = bake_device(&settings)?;
-    let bake = bake_watched(gpu.as_ref(), &scene, &settings, is_quiet)?;
+    let rows = args.row_cache.as_deref().map(|path| RowCache::open(path, ROW_CACHE_BYTES)).transpose()?;
+    let bake = bake_watched(gpu.as_ref(), &scene, &settings, rows.as_ref(), is_quiet)?;
     let exposure_ev = match args.exposure {
         Exposure::Ev(ev) => ev,
         Exposure::Auto => baked::exposure::suited(&bake.baked),
@@ -76,6 +85,9 @@ pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
             100.0 * unshot_share,
             seconds.total
         );
+    }
+    if let (Some(rows), false) = (&rows, is_quiet) {
+        eprintln!("{} of the hemicubes were in the row cache, which has {} now", rows.num_reused(), rows.len());
     }
     if bake.report.cancelled {
         eprintln!("stopped early: what was solved until then is in the file");

@@ -5,8 +5,9 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
-use crate::bake::{Bake, BakeSettings, Method, Quality, Solver, bake};
+use crate::bake::{Bake, BakeSettings, Method, Quality, Solver, bake_with_rows};
 use crate::baked::{self, BakedScene};
+use crate::form_factor::row_cache::RowCache;
 use crate::gpu::Gpu;
 use crate::scene::gltf::LoadOptions;
 use crate::scene::{Scene, builtin, gltf};
@@ -169,9 +170,15 @@ pub fn bake_device(settings: &BakeSettings) -> Result<Option<Gpu>> {
 ///
 /// # Errors
 /// The scene cannot be baked.
-pub fn bake_watched(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, is_quiet: bool) -> Result<Bake> {
+pub fn bake_watched(
+    gpu: Option<&Gpu>,
+    scene: &Scene,
+    settings: &BakeSettings,
+    rows: Option<&RowCache>,
+    is_quiet: bool,
+) -> Result<Bake> {
     let watch = TerminalWatch::interruptible(is_quiet)?;
-    let finished = bake(gpu, scene, settings, &watch)?;
+    let finished = bake_with_rows(gpu, scene, settings, rows, &watch)?;
     watch.finish();
     for note in &scene.notes {
         log::info!("{note}");
@@ -186,6 +193,6 @@ pub fn bake_watched(gpu: Option<&Gpu>, scene: &Scene, settings: &BakeSettings, i
 pub fn lit_scene(gpu: Option<&Gpu>, scene: Scene, settings: &BakeSettings, is_quiet: bool) -> Result<BakedScene> {
     match baked::gltf::from_scene(scene) {
         Ok(baked) => Ok(baked),
-        Err(scene) => Ok(bake_watched(gpu, &scene, settings, is_quiet)?.baked),
+        Err(scene) => Ok(bake_watched(gpu, &scene, settings, None, is_quiet)?.baked),
     }
 }

@@ -83,7 +83,7 @@ fn radiosity(scene: Scene, points: &[MeasuringPoint], args: &MeasureArgs, is_qui
         }
         Err(scene) => {
             let device = bake_device(&settings)?;
-            let bake = bake_watched(device.as_ref(), &scene, &settings, is_quiet)?;
+            let bake = bake_watched(device.as_ref(), &scene, &settings, None, is_quiet)?;
             if bake.report.cancelled {
                 bail!("stopped");
             }

@@ -10,8 +10,10 @@ pub mod hemicube;
 pub mod hemisphere;
 pub mod pair;
 pub mod polygon;
+pub mod row_cache;
 
 mod quadrature;
+mod row_file;
 
 use std::sync::OnceLock;
 

@@ -1,0 +1,104 @@
+//! The bytes of a row cache: a header, and a record a row. Numbers are little-endian.
+//!
+//! | record | bytes |
+//! |---|---|
+//! | name | 16 |
+//! | number of entries | 4 |
+//! | back and sky share | 4 and 4 |
+//! | element and factor, an entry | 4 and 4 |
+
+use std::io::{self, Read};
+
+use super::{Entry, Row};
+use crate::base::ids::ElementId;
+
+/// How a file begins; the digit is that of the format.
+pub(super) const HEADER: &[u8; 16] = b"hemicube rows 1\n";
+
+/// Bytes of a record before its entries.
+const HEAD_BYTES: usize = 28;
+const ENTRY_BYTES: usize = 8;
+
+/// What comes before the entries of a record.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct RecordHead {
+    /// What the row depends on.
+    pub name: u128,
+    num_entries: u32,
+    pub back: f32,
+    pub sky: f32,
+}
+
+impl RecordHead {
+    /// The next head; none where fewer than the `num_left` bytes that are left would make a whole record.
+    pub(super) fn read(from: &mut impl Read, num_left: u64) -> io::Result<Option<Self>> {
+        if num_left < HEAD_BYTES as u64 {
+            return Ok(None);
+        }
+        let mut bytes = [0; HEAD_BYTES];
+        from.read_exact(&mut bytes)?;
+        let (name, numbers) = bytes.split_at(16);
+        let number = |i: usize| <[u8; 4]>::try_from(&numbers[4 * i..4 * i + 4]).unwrap_or_default();
+        let head = Self {
+            name: u128::from_le_bytes(name.try_into().unwrap_or_default()),
+            num_entries: u32::from_le_bytes(number(0)),
+            back: f32::from_le_bytes(number(1)),
+            sky: f32::from_le_bytes(number(2)),
+        };
+        Ok((head.num_bytes() <= num_left).then_some(head))
+    }
+
+    /// Bytes of the entries.
+    pub(super) fn num_entry_bytes(&self) -> u64 {
+        u64::from(self.num_entries) * ENTRY_BYTES as u64
+    }
+
+    /// Bytes of the whole record.
+    pub(super) fn num_bytes(&self) -> u64 {
+        HEAD_BYTES as u64 + self.num_entry_bytes()
+    }
+}
+
+/// The entries that follow a head.
+pub(super) fn read_entries(from: &mut impl Read, head: &RecordHead) -> io::Result<Vec<Entry>> {
+    let mut bytes = vec![0; head.num_entry_bytes() as usize];
+    from.read_exact(&mut bytes)?;
+    let entry = |&[a, b, c, d, e, f, g, h]: &[u8; ENTRY_BYTES]| Entry {
+        element: ElementId(u32::from_le_bytes([a, b, c, d])),
+        factor: f32::from_le_bytes([e, f, g, h]),
+    };
+    Ok(bytes.as_chunks::<ENTRY_BYTES>().0.iter().map(entry).collect())
+}
+
+/// Appends the record of a row.
+pub(super) fn write_record(name: u128, row: &Row, bytes: &mut Vec<u8>) {
+    bytes.extend(name.to_le_bytes());
+    bytes.extend((row.entries.len() as u32).to_le_bytes());
+    bytes.extend(row.back.to_le_bytes());
+    bytes.extend(row.sky.to_le_bytes());
+    for entry in &row.entries {
+        bytes.extend(entry.element.0.to_le_bytes());
+        bytes.extend(entry.factor.to_le_bytes());
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_record_is_read_as_it_was_written_and_not_where_it_is_cut_off() {
+        let entries = vec![Entry { element: ElementId(7), factor: 0.25 }, Entry { element: ElementId(9), factor: 0.5 }];
+        let row = Row { entries, back: 0.125, sky: 0.125 };
+        let mut bytes = Vec::new();
+        write_record(42 << 100, &row, &mut bytes);
+        let mut reader = &bytes[..];
+        let head = RecordHead::read(&mut reader, bytes.len() as u64).expect("read").expect("whole");
+        assert_eq!((head.name, head.num_bytes()), (42 << 100, bytes.len() as u64));
+        let entries = read_entries(&mut reader, &head).expect("read");
+        assert_eq!(Row { entries, back: head.back, sky: head.sky }, row);
+        for length in 0..bytes.len() {
+            assert_eq!(RecordHead::read(&mut &bytes[..length], length as u64).expect("read"), None);
+        }
+    }
+}

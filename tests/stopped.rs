@@ -1,0 +1,168 @@
+//! Bakes that are stopped, and bakes that go on from what others found.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use glam::{Quat, Vec3};
+use hemicube::bake::{Bake, BakeSettings, Method, Quality, Watch, bake, bake_with_rows};
+use hemicube::base::progress::{Progress, Stage, Unwatched};
+use hemicube::form_factor::row_cache::{RowCache, RowCacheError};
+use hemicube::scene::{Scene, builtin};
+
+use crate::support::scenes::SceneBuilder;
+
+/// Cancels the bake when it tells of a stage for the `moment`-th time.
+struct StopAt {
+    stage: Stage,
+    moment: usize,
+    told: AtomicUsize,
+}
+
+impl StopAt {
+    fn new(stage: Stage, moment: usize) -> Self {
+        Self { stage, moment, told: AtomicUsize::new(0) }
+    }
+
+    /// Counts how often a stage is told of.
+    fn never(stage: Stage) -> Self {
+        Self::new(stage, usize::MAX)
+    }
+
+    fn num_told(&self) -> usize {
+        self.told.load(Ordering::Relaxed)
+    }
+}
+
+impl Progress for StopAt {
+    fn report(&self, stage: Stage, _: f32) {
+        self.told.fetch_add(usize::from(stage == self.stage), Ordering::Relaxed);
+    }
+    fn is_cancelled(&self) -> bool {
+        self.num_told() > self.moment
+    }
+}
+
+impl Watch for StopAt {}
+
+fn settings() -> BakeSettings {
+    BakeSettings {
+        element_size: Some(0.2),
+        method: Some(Method::Hemisphere),
+        hemisphere_rays: 64,
+        threshold: 0.1,
+        ..BakeSettings::preset(Quality::Draft)
+    }
+}
+
+fn bake_on(scene: &Scene, rows: Option<&RowCache>, watch: &dyn Watch) -> Bake {
+    bake_with_rows(None, scene, &settings(), rows, watch).unwrap()
+}
+
+fn open(path: &Path) -> RowCache {
+    RowCache::open(path, 1 << 30).unwrap()
+}
+
+/// A point light throws a hard shadow of a block on the floor: elements are halved to the last.
+fn sharp_room() -> Scene {
+    let mut builder = SceneBuilder::default();
+    let white = builder.material(Vec3::splat(0.7), Vec3::ZERO);
+    builder.room(Vec3::ZERO, Vec3::new(3.0, 2.0, 2.5), [white; 6]);
+    builder.block(Vec3::new(1.5, 0.8, 1.2), Vec3::splat(0.3), Quat::from_rotation_y(0.5), white);
+    builder.point_light(Vec3::new(1.0, 1.7, 1.0), Vec3::splat(100.0), 0);
+    builder.build(1)
+}
+
+#[test]
+fn a_bake_may_be_stopped_at_any_moment() {
+    let scene = sharp_room();
+    for stage in [Stage::Mesh, Stage::Direct, Stage::Solve, Stage::Gather] {
+        let whole = StopAt::never(stage);
+        bake_on(&scene, None, &whole);
+        let moments = 0..whole.num_told();
+        assert!(!moments.is_empty(), "{stage:?} is not told of");
+        for moment in moments.clone().step_by(moments.len().div_ceil(8)) {
+            let bake = bake_on(&scene, None, &StopAt::new(stage, moment));
+            assert!(bake.report.cancelled, "{stage:?} {moment}");
+            let num_vertices = bake.baked.scene.vertices.len();
+            for part in bake.baked.light.groups.iter().flat_map(|group| [&group.direct, &group.indirect]) {
+                assert_eq!(part.len(), num_vertices);
+                assert!(part.iter().all(|light| light.is_finite() && light.min_element() >= 0.0));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_stopped_bake_goes_on_to_the_same_bits() {
+    let scene = builtin::cornell();
+    let whole = StopAt::never(Stage::Gather);
+    let expected = bake_on(&scene, None, &whole);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows");
+    let late = StopAt::new(Stage::Gather, whole.num_told() / 4);
+    bake_on(&scene, Some(&open(&path)), &late);
+    let rows = open(&path);
+    let num_kept = rows.len();
+    let resumed = bake_on(&scene, Some(&rows), &Unwatched);
+    assert!(num_kept > 100 && rows.num_reused() >= num_kept, "{} of {num_kept} rows", rows.num_reused());
+    assert!(rows.len() > num_kept, "nothing was left to find");
+    assert_eq!(resumed.baked.light, expected.baked.light);
+}
+
+#[test]
+fn other_colours_need_hardly_a_row_anew_and_other_walls_all() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows");
+    // Refined elements follow the light; one size stays.
+    let settings = BakeSettings { refine_error: 0.0, ..settings() };
+    let num_found = |scene: &Scene| {
+        let rows = open(&path);
+        let before = rows.len();
+        let cached = bake_with_rows(None, scene, &settings, Some(&rows), &Unwatched).unwrap();
+        let found = bake(None, scene, &settings, &Unwatched).unwrap();
+        assert_eq!(cached.baked.light, found.baked.light);
+        rows.len() - before
+    };
+    let mut scene = builtin::cornell();
+    let num_rows = num_found(&scene);
+    assert!(num_rows > 100);
+    scene.materials.iter_mut().for_each(|material| material.base_colour *= Vec3::new(0.9, 0.5, 0.7).extend(1.0));
+    // Patches that had too little to send before may shoot now.
+    assert!(num_found(&scene) < num_rows / 20);
+    scene.vertices.iter_mut().for_each(|vertex| vertex.position.y *= 1.01);
+    assert!(num_found(&scene) > num_rows / 2);
+}
+
+#[test]
+fn a_broken_end_is_found_anew() {
+    let scene = builtin::cornell();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows");
+    let expected = bake_on(&scene, Some(&open(&path)), &Unwatched);
+    let file = std::fs::File::options().write(true).open(&path).unwrap();
+    let length = file.metadata().unwrap().len();
+    file.set_len(length - 5).unwrap();
+    let rows = open(&path);
+    let again = bake_on(&scene, Some(&rows), &Unwatched);
+    drop(rows);
+    assert_eq!(again.baked.light, expected.baked.light);
+    assert_eq!(std::fs::metadata(&path).unwrap().len(), length);
+}
+
+#[test]
+fn a_row_cache_keeps_to_its_limit_and_spares_other_files() {
+    let scene = builtin::cornell();
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("rows");
+    let rows = RowCache::open(&path, 100_000).unwrap();
+    assert!(matches!(RowCache::open(&path, 100_000), Err(RowCacheError::InUse(_))));
+    let light = bake_on(&scene, Some(&rows), &Unwatched).baked.light;
+    assert_eq!(light, bake_on(&scene, None, &Unwatched).baked.light);
+    let length = std::fs::metadata(&path).unwrap().len();
+    assert!((50_000..=100_000).contains(&length), "{length}");
+    let other = folder.path().join("letter.txt");
+    std::fs::write(&other, "Dear reader").unwrap();
+    let message = RowCache::open(&other, 100_000).unwrap_err().to_string();
+    assert!(message.contains("letter.txt") && message.contains("not a row cache"), "{message}");
+    assert_eq!(std::fs::read_to_string(&other).unwrap(), "Dear reader");
+}
