@@ -44,6 +44,14 @@ pub struct BakedScene {
     pub light: VertexLight,
 }
 
+impl BakedScene {
+    /// A scene as its file has it, without any light.
+    #[must_use]
+    pub fn dark(scene: Scene) -> Self {
+        Self { light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()), scene }
+    }
+}
+
 /// Irradiance at vertices, direct and indirect apart, light group by light group.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VertexLight {

@@ -174,7 +174,7 @@ pub(super) fn light(gpu: &Gpu, scene: Scene, args: &RenderArgs, is_quiet: bool) 
 fn first_pass(scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedScene> {
     match (baked::gltf::from_scene(scene), args.lighting()) {
         (Ok(baked), _) => Ok(baked),
-        (Err(scene), Lighting::Direct | Lighting::Ambient) => Ok(dark(scene)),
+        (Err(scene), Lighting::Direct | Lighting::Ambient) => Ok(BakedScene::dark(scene)),
         (Err(scene), _) => {
             let settings = args.bake.settings();
             lit_scene(bake_device(&settings)?.as_ref(), scene, &settings, is_quiet)
@@ -184,11 +184,7 @@ fn first_pass(scene: Scene, args: &RenderArgs, is_quiet: bool) -> Result<BakedSc
 
 /// The scene with the light it stores, else with none.
 fn unbaked(scene: Scene) -> BakedScene {
-    baked::gltf::from_scene(scene).unwrap_or_else(dark)
-}
-
-fn dark(scene: Scene) -> BakedScene {
-    BakedScene { light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()), scene }
+    baked::gltf::from_scene(scene).unwrap_or_else(BakedScene::dark)
 }
 
 pub(super) fn look(args: &RenderArgs, baked: &BakedScene) -> Look {

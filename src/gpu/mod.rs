@@ -12,6 +12,7 @@ pub mod shaders;
 pub mod stopwatch;
 pub mod targets;
 pub mod textures;
+pub mod vertex_light;
 
 pub use context::{Gpu, GpuError};
 pub use scene_buffers::SceneBuffers;

@@ -11,6 +11,7 @@ use wgpu::util::DeviceExt;
 
 use super::Gpu;
 use super::material_buffers::material_bind_groups;
+use super::vertex_light::{irradiance_buffer, light_bind_group};
 use crate::baked::{BakedScene, VertexLight};
 use crate::base::ids::MaterialId;
 use crate::scene::{AlphaMode, Scene, Triangle};
@@ -26,7 +27,7 @@ pub struct SceneBuffers {
     pub vertices: wgpu::Buffer,
     /// Three u32 a triangle, batch by batch.
     pub indices: wgpu::Buffer,
-    /// Binds the irradiance as [`light_layout`] says.
+    /// Binds the irradiance as [`light_layout`](super::vertex_light::light_layout) says.
     pub light: wgpu::BindGroup,
     /// Bind groups of the materials `[m]`.
     pub materials: Vec<wgpu::BindGroup>,
@@ -84,24 +85,6 @@ impl GpuVertex {
     };
 }
 
-/// Layout of the light's bind group: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`.
-#[must_use]
-pub fn light_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("vertex light"),
-        entries: &[wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::VERTEX,
-            ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
-                has_dynamic_offset: false,
-                min_binding_size: None,
-            },
-            count: None,
-        }],
-    })
-}
-
 impl SceneBuffers {
     /// Uploads triangles, materials, textures (with mip maps) and light.
     #[must_use]
@@ -129,16 +112,6 @@ impl SceneBuffers {
         buffers
     }
 
-    /// Replaces the light; the mesh is the same, groups that `light` lacks keep theirs.
-    pub fn set_light(&self, gpu: &Gpu, light: &VertexLight) {
-        let part_size = (self.num_vertices * size_of::<Vec3>()) as u64;
-        let parts = light.groups.iter().take(self.num_groups).flat_map(|group| [&group.direct, &group.indirect]);
-        for (part, values) in parts.enumerate() {
-            assert_eq!(values.len(), self.num_vertices, "light of another mesh");
-            gpu.queue.write_buffer(&self.irradiance, part as u64 * part_size, bytemuck::cast_slice(values));
-        }
-    }
-
     /// How many light groups the light has.
     #[must_use]
     pub fn num_groups(&self) -> usize {
@@ -162,24 +135,6 @@ fn vertex_buffer(gpu: &Gpu, scene: &Scene) -> wgpu::Buffer {
         label: Some("scene vertices"),
         contents: bytemuck::cast_slice(&vertices),
         usage: wgpu::BufferUsages::VERTEX,
-    })
-}
-
-/// A buffer of zeros for all groups; never empty, so that it can be bound.
-fn irradiance_buffer(gpu: &Gpu, num_groups: usize, num_vertices: usize) -> wgpu::Buffer {
-    gpu.device.create_buffer(&wgpu::BufferDescriptor {
-        label: Some("vertex irradiance"),
-        size: ((2 * num_groups * num_vertices).max(1) * size_of::<Vec3>()) as u64,
-        usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
-        mapped_at_creation: false,
-    })
-}
-
-fn light_bind_group(gpu: &Gpu, irradiance: &wgpu::Buffer) -> wgpu::BindGroup {
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("vertex light"),
-        layout: &light_layout(gpu),
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: irradiance.as_entire_binding() }],
     })
 }
 

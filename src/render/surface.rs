@@ -4,8 +4,9 @@ use std::collections::HashMap;
 
 use super::{Look, Shading};
 use crate::gpu::material_buffers::material_layout;
-use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex, light_layout};
+use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex};
 use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
+use crate::gpu::vertex_light::light_layout;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 use crate::scene::AlphaMode;
 

@@ -45,6 +45,7 @@ mod painter;
 mod picture;
 mod screen;
 mod shadow_notes;
+mod warm_up;
 
 use std::path::PathBuf;
 

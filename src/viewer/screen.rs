@@ -7,6 +7,7 @@ use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
 use super::canvas::{Canvas, Detail, Sight};
+use super::warm_up::warm_up;
 use crate::gpu::Gpu;
 use crate::render::shadow::Batch;
 
@@ -71,7 +72,10 @@ impl Screen {
         let gpu = Gpu::for_surface(instance, Some(&surface))?;
         let config = configuration(&gpu, &surface, window.inner_size())?;
         surface.configure(&gpu.device, &config);
-        let canvas = Canvas::new(&gpu, config.format);
+        let mut canvas = Canvas::new(&gpu, config.format);
+        if canvas.is_slow() {
+            warm_up(&gpu, &mut canvas);
+        }
         // Plain panels need no dithering, which costs a processor that draws more than the panels themselves.
         let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
         let painter = egui_wgpu::Renderer::new(&gpu.device, config.format, options);

@@ -53,7 +53,7 @@ impl Runner {
         }
         let (baked, is_baked) = match baked::gltf::from_scene(scene) {
             Ok(baked) => (baked, true),
-            Err(scene) => (dark(scene), false),
+            Err(scene) => (BakedScene::dark(scene), false),
         };
         let collider = Collider::new(&baked.scene);
         let buffers = Arc::new(SceneBuffers::new(&self.gpu, &baked));
@@ -73,7 +73,7 @@ impl Runner {
         let done = bake(gpu.as_ref(), scene, settings, self)?;
         log::info!("the bake has ended");
         if let Some(mesh) = &*lock(&self.mesh) {
-            mesh.set_light(&self.gpu, &done.baked.light);
+            mesh.set_light_in_parts(&self.gpu, &done.baked.light, || self.rest());
         }
         self.tell(Event::Finished(Arc::new(Solved::of_bake(Arc::clone(scene), done, settings))));
         Ok(())
@@ -83,12 +83,6 @@ impl Runner {
         // Nobody listens once the window is closed.
         let _ = self.window.send_event(News { job: self.number, event });
     }
-}
-
-/// A scene as the file has it, without any light.
-fn dark(scene: Scene) -> BakedScene {
-    let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
-    BakedScene { scene, light }
 }
 
 impl Progress for Runner {
@@ -112,9 +106,13 @@ impl Progress for Runner {
 
 impl Watch for Runner {
     fn mesh(&self, dark: &BakedScene) {
+        self.rest();
         let buffers = Arc::new(SceneBuffers::new(&self.gpu, dark));
         let scene = Arc::new(dark.scene.clone());
+        self.rest();
         let shadows = Arc::new(ShadowScene::new(&self.gpu, Arc::clone(&scene)));
+        // On its way now, and not with the next frame.
+        self.gpu.queue.submit([]);
         self.tell(Event::Mesh(Mesh { scene, buffers: Arc::clone(&buffers), shadows }));
         *lock(&self.mesh) = Some(buffers);
     }
@@ -126,7 +124,7 @@ impl Watch for Runner {
     fn light(&self, estimate: &VertexLight) {
         if let Some(mesh) = &*lock(&self.mesh) {
             *lock(&self.shared.light_wanted) = None;
-            mesh.set_light(&self.gpu, estimate);
+            mesh.set_light_in_parts(&self.gpu, estimate, || self.rest());
             self.tell(Event::Light);
         }
     }
