@@ -124,7 +124,9 @@ pub fn bake_with_rows(
     let lighting = Lighting { lights: &lights, tracer: &tracer, settings, refine, sharpen, gather, watch };
     let places = sites.of_light_vertices(&mesh);
     let (mesh, direct) = lighting.refine_by_direct(&mut cut, mesh, &places)?;
-    watch.mesh(&lit_mesh(scene, &mesh, &direct, &Field::zero(direct.num_places(), direct.num_groups())));
+    if !watch.is_cancelled() {
+        watch.mesh(&lit_mesh(scene, &mesh, &direct, &Field::zero(direct.num_places(), direct.num_groups())));
+    }
     let few_rays = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS);
     let on_elements = direct_on_elements(&mesh, &sites, &few_rays, &tracer, settings.points_an_element, watch);
     clock.lap(Stage::Direct);

@@ -69,7 +69,12 @@ impl Lighting<'_> {
         let floor = FLOOR * mean_luminance(&lit.light);
         let mut evaluate = |places: &[Viewpoint]| -> Result<Lit, BakeError> {
             let direct = self.lights.irradiance(places, self.watch);
-            Ok(join(&direct, &gatherer.at(method, places, self.watch)?))
+            let mut lit = join(&direct, &gatherer.at(method, places, self.watch)?);
+            if self.watch.is_cancelled() {
+                // Nothing is known for certain any more: no edge shall be halved for it.
+                lit.is_open.fill(false);
+            }
+            Ok(lit)
         };
         let (mesh, lit) = cut.refine(mesh.clone(), lit, &self.sharpen, floor, &mut evaluate)?;
         if self.watch.is_cancelled() {

@@ -7,6 +7,7 @@ use std::thread::JoinHandle;
 use anyhow::Context;
 use winit::event_loop::EventLoopProxy;
 
+use super::background::give_way;
 use super::meter::{Grid, Reading};
 use super::output::Written;
 use super::patch_sight::PatchSight;
@@ -111,7 +112,10 @@ impl Errands {
         self.last += 1;
         let shared = Arc::new(Shared::default());
         let bearer = Bearer { number: self.last, job, shared: Arc::clone(&shared), window: self.window.clone() };
-        let thread = std::thread::Builder::new().name("errand".to_owned()).spawn(move || work(&bearer));
+        let thread = std::thread::Builder::new().name("errand".to_owned()).spawn(move || {
+            give_way();
+            work(&bearer);
+        });
         let thread = Some(thread.context("cannot start a thread")?);
         self.running.insert(kind, Errand { number: self.last, shared, thread });
         Ok(())

@@ -34,6 +34,7 @@ pub mod walkthrough;
 pub mod worker;
 
 mod accumulation;
+mod background;
 mod commands;
 mod default_sky;
 mod difference;
@@ -67,5 +68,6 @@ pub struct ViewerOptions {
 /// # Errors
 /// There is no display, or no graphics device that can draw into a window.
 pub fn run(options: ViewerOptions) -> anyhow::Result<()> {
+    background::share_work_in_background();
     app::run(options)
 }

@@ -16,6 +16,7 @@ use winit::event_loop::EventLoopProxy;
 
 use crate::base::progress::{Cancel, Gate, Stage};
 use crate::gpu::Gpu;
+use crate::viewer::background::give_way;
 
 pub use news::{Event, Job, Loaded, Mesh, News};
 use runner::Runner;
@@ -83,7 +84,11 @@ impl Worker {
         let shared = Shared::new(Some(Instant::now()));
         let runner =
             Runner { number, gpu, window, shared: Arc::clone(&shared), mesh: Mutex::default(), told: Mutex::new(None) };
-        let thread = std::thread::Builder::new().name("bake".to_owned()).spawn(move || runner.run(job));
+        let work = move || {
+            give_way();
+            runner.run(job);
+        };
+        let thread = std::thread::Builder::new().name("bake".to_owned()).spawn(work);
         Ok(Self { shared, thread: Some(thread.context("cannot start the bake")?) })
     }
 
