@@ -11,6 +11,7 @@ mod lightmap;
 mod loader;
 mod meshing;
 mod mirrors;
+mod noise;
 mod panels;
 mod pictures;
 mod radiosity;

@@ -68,6 +68,8 @@ pub struct BakeSettings {
     pub points_a_patch: usize,
     /// Error that vertices may make by borrowing gathered light from their neighbourhood.
     pub cache_tolerance: f32,
+    /// Noise that gathering may leave at a vertex that others borrow from: standard deviation relative to the irradiance.
+    pub noise: f32,
     /// Points of an element at which its direct light is found.
     pub points_an_element: usize,
     /// Rays a place and emitter in penumbrae.
@@ -116,6 +118,7 @@ impl BakeSettings {
             target_patches: 1_500.0,
             points_a_patch: 2,
             cache_tolerance: 0.1,
+            noise: 0.05,
             points_an_element: 2,
             num_penumbra_rays: 256,
         };
@@ -132,6 +135,7 @@ impl BakeSettings {
                 target_patches: 500.0,
                 points_a_patch: 1,
                 cache_tolerance: 0.2,
+                noise: 0.1,
                 points_an_element: 1,
                 num_penumbra_rays: 64,
                 ..base
@@ -148,6 +152,7 @@ impl BakeSettings {
                 target_patches: 4_000.0,
                 points_a_patch: 4,
                 cache_tolerance: 0.06,
+                noise: 0.025,
                 points_an_element: 4,
                 num_penumbra_rays: 1024,
                 ..base
@@ -185,6 +190,7 @@ impl BakeSettings {
     pub(super) fn gather(&self, sizes: &MeshSettings) -> GatherSettings {
         GatherSettings {
             tolerance: self.cache_tolerance,
+            noise: self.noise,
             max_radius: BORROW_REACH * sizes.element_size,
             contact_reach: sizes.patch_size,
         }

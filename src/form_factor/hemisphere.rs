@@ -120,4 +120,8 @@ impl FormFactors for Hemispheres<'_> {
         }
         Ok(done)
     }
+
+    fn num_samples(&self) -> usize {
+        self.table.len()
+    }
 }

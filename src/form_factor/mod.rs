@@ -80,6 +80,9 @@ pub trait FormFactors {
         go_on: &dyn Fn() -> bool,
         take: &(dyn Fn(usize, &Row) + Sync),
     ) -> Result<usize, FormFactorError>;
+
+    /// Rays or pixels of one row.
+    fn num_samples(&self) -> usize;
 }
 
 /// What `reduce` makes of the rows of `viewpoints`; fewer than asked for where `go_on` said no.

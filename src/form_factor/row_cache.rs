@@ -237,4 +237,8 @@ impl FormFactors for CachedRows<'_> {
         self.cache.append(&found.into_inner().unwrap_or_else(PoisonError::into_inner));
         Ok(missing.get(num_found).map_or(viewpoints.len(), |&(first, _)| first))
     }
+
+    fn num_samples(&self) -> usize {
+        self.method.num_samples()
+    }
 }

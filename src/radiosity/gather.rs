@@ -12,13 +12,16 @@ use rayon::prelude::*;
 use super::cache::IrradianceCache;
 use super::contacts::{Contact, Contacts};
 use super::field::Field;
+use super::noise::{Noise, irradiance_and_variance};
+use super::sight::Sight;
 use crate::base::progress::{Progress, Stage};
 use crate::base::sampling::{hash, tangent_frame};
 use crate::form_factor::{FormFactorError, FormFactors, MAX_BACK_SHARE, Row, Viewpoint, map_rows};
 use crate::patch::PatchMesh;
 
-/// Sites gathered before the cache is asked again.
+/// Most sites gathered before the cache is asked again, and of the first round: later ones are twice as large as all before.
 const ROUND: usize = 512;
+const FIRST_ROUND: usize = 32;
 
 /// Stiffness of the plane through records, as a share of how far they scatter.
 const STIFFNESS: f32 = 0.1;
@@ -33,6 +36,8 @@ pub struct GatherSettings {
     pub tolerance: f32,
     /// Farthest that a site is borrowed from, metres.
     pub max_radius: f32,
+    /// Standard deviation that sampling may leave at one site, relative to the irradiance.
+    pub noise: f32,
     /// How close elements must be to reflect the light of their own vertices, metres.
     pub contact_reach: f32,
 }
@@ -53,6 +58,7 @@ pub struct Gatherer<'a> {
     centroids: Vec<Vec3>,
     cache: IrradianceCache,
     contacts: Contacts<'a>,
+    noise: Noise,
     /// The sites that others borrow from.
     records: Vec<Record>,
     /// Irradiance `[record][group]` as gathered, and with the light of contacts.
@@ -60,20 +66,11 @@ pub struct Gatherer<'a> {
     irradiance: Vec<Vec3>,
     /// Contacts of all records, record by record.
     close: Vec<Contact>,
+    /// Sum over the sites that were looked from, and their number.
     back_share: f32,
+    num_seen: usize,
     /// Hemicubes that stood at sites.
     pub num_hemicubes: usize,
-}
-
-/// What a hemicube tells of its site.
-struct Sight {
-    irradiance: Vec<Vec3>,
-    contacts: Vec<Contact>,
-    back: f32,
-    /// Harmonic mean distance, metres.
-    distance: f32,
-    /// Distance of the nearest place on an element, metres.
-    nearest: f32,
 }
 
 /// A site that others borrow from.
@@ -92,19 +89,21 @@ impl<'a> Gatherer<'a> {
             centroids: mesh.elements.iter().map(|element| mesh.centroid(element)).collect(),
             cache: IrradianceCache::new(settings.tolerance, settings.max_radius),
             contacts: Contacts::new(mesh, radiosity, settings.contact_reach),
+            noise: Noise::new(settings.noise, settings.max_radius),
             records: Vec::new(),
             gathered: Vec::new(),
             irradiance: Vec::new(),
             close: Vec::new(),
             back_share: 0.0,
+            num_seen: 0,
             num_hemicubes: 0,
         }
     }
 
-    /// Share of back faces seen, mean over all hemicubes.
+    /// Share of back faces seen, mean over all sites that were looked from.
     #[must_use]
     pub fn mean_back_share(&self) -> f32 {
-        self.back_share / self.num_hemicubes.max(1) as f32
+        self.back_share / self.num_seen.max(1) as f32
     }
 
     /// Gathers at all `sites`.
@@ -129,16 +128,30 @@ impl<'a> Gatherer<'a> {
         while next < order.len() && !progress.is_cancelled() {
             // Choose the next sites that no hemicube near them serves.
             let mut chosen = Vec::with_capacity(ROUND);
-            while chosen.len() < ROUND && next < order.len() {
+            let round = (2 * self.num_seen).clamp(FIRST_ROUND, ROUND);
+            while chosen.len() < round && next < order.len() {
                 let site = order[next];
                 if !self.cache.serves(&sites[site as usize]) {
                     chosen.push(site);
                 }
                 next += 1;
             }
-            let viewpoints: Vec<Viewpoint> = chosen.iter().map(|&site| sites[site as usize]).collect();
-            let sights = map_rows(method, &viewpoints, &go_on, |index, row| self.see(row, &viewpoints[index]))?;
-            for ((&site, viewpoint), sight) in chosen.iter().zip(&viewpoints).zip(sights) {
+            // Take as many looks at each as its neighbourhood is noisy.
+            let num_looks: Vec<u32> = chosen.iter().map(|&site| self.noise.looks(&sites[site as usize])).collect();
+            let looks = chosen.iter().zip(&num_looks).flat_map(|(&site, &n)| (0..n).map(move |i| (site, i)));
+            let looks: Vec<Viewpoint> = looks.map(|(site, i)| other_look(&sites[site as usize], i)).collect();
+            let num_samples = method.num_samples() as f32;
+            let see = |index: usize, row: &Row| self.see(row, &looks[index], num_samples);
+            let mut sights = map_rows(method, &looks, &go_on, see)?.into_iter();
+            for (&site, &num_looks) in chosen.iter().zip(&num_looks) {
+                let seen: Vec<Sight> = sights.by_ref().take(num_looks as usize).collect();
+                if seen.len() < num_looks as usize {
+                    break;
+                }
+                let viewpoint = &sites[site as usize];
+                seen.iter().for_each(|sight| self.noise.learn(viewpoint, sight.luminance, sight.variance));
+                self.num_hemicubes += seen.len();
+                let sight = Sight::mean(seen);
                 gathered.enter(site as usize, &sight);
                 self.remember(viewpoint, sight);
             }
@@ -166,7 +179,7 @@ impl<'a> Gatherer<'a> {
     }
 
     /// Irradiance, back faces, distances and contacts from one row.
-    fn see(&self, row: &Row, viewpoint: &Viewpoint) -> Sight {
+    fn see(&self, row: &Row, viewpoint: &Viewpoint, num_samples: f32) -> Sight {
         let mut irradiance = vec![Vec3::ZERO; self.radiosity.num_groups()];
         let (mut inverse_distance, mut seen) = (0.0, 0.0);
         for entry in &row.entries {
@@ -179,12 +192,13 @@ impl<'a> Gatherer<'a> {
         }
         let distance = if inverse_distance > 0.0 { seen / inverse_distance } else { f32::MAX };
         let (contacts, nearest) = self.contacts.of(row, viewpoint.position);
-        Sight { irradiance, contacts, back: row.back, distance, nearest }
+        let (luminance, variance) = irradiance_and_variance(row, self.radiosity, num_samples);
+        Sight { irradiance, contacts, back: row.back, distance, nearest, luminance, variance }
     }
 
     fn remember(&mut self, viewpoint: &Viewpoint, sight: Sight) {
         self.back_share += sight.back;
-        self.num_hemicubes += 1;
+        self.num_seen += 1;
         if sight.back <= MAX_BACK_SHARE {
             self.cache.insert(viewpoint, sight.distance, sight.nearest, self.records.len() as u32);
             let Sight { mut irradiance, contacts, .. } = sight;
@@ -254,6 +268,11 @@ fn scattered_order(num_sites: usize) -> Vec<u32> {
     let mut order: Vec<u32> = (0..num_sites as u32).collect();
     order.sort_by_key(|&site| hash(site));
     order
+}
+
+/// The viewpoint of the `i`-th look from a site: the samples fall elsewhere each time.
+fn other_look(site: &Viewpoint, i: u32) -> Viewpoint {
+    Viewpoint { seed: site.seed ^ i.wrapping_mul(0x85eb_ca6b), ..*site }
 }
 
 impl Gathered {

@@ -15,9 +15,11 @@ pub mod field;
 pub mod full_matrix;
 pub mod gather;
 pub mod gathering;
+pub mod noise;
 pub mod progressive;
 pub mod reconstruct;
 pub mod rows;
+mod sight;
 pub mod sites;
 
 pub use field::Field;

@@ -150,6 +150,11 @@ impl FormFactors for Hemicubes<'_> {
         self.deltas = deltas;
         done
     }
+
+    fn num_samples(&self) -> usize {
+        // The top, and four halves of sides.
+        3 * (self.layout.n * self.layout.n) as usize
+    }
 }
 
 fn bindings_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
