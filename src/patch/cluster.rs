@@ -6,9 +6,8 @@
 //!
 //! Source: Cohen, Greenberg, Immel, Brock 1986 (patches and elements); Willmott, Heckbert, Garland 1999 (face clusters).
 
-use std::collections::HashMap;
-
 use glam::{IVec3, Vec3};
+use rustc_hash::FxHashMap;
 
 use super::{Element, Patch, PatchMesh};
 use crate::base::ids::{ElementId, PatchId};
@@ -56,7 +55,7 @@ fn key_of(mesh: &PatchMesh, scene: &Scene, element: &Element, patch_size: f32) -
 /// Unites elements of equal key that share an edge of the mesh.
 fn join_across_edges(mesh: &PatchMesh, keys: &[Key], clusters: &mut UnionFind) {
     // Edges are named by position, so that creases and texture seams do not part a patch.
-    let mut places: HashMap<[u32; 3], u32> = HashMap::with_capacity(mesh.light_vertices.len());
+    let mut places: FxHashMap<[u32; 3], u32> = FxHashMap::default();
     let place_of: Vec<u32> = mesh
         .light_vertices
         .iter()
@@ -87,7 +86,7 @@ fn join_across_edges(mesh: &PatchMesh, keys: &[Key], clusters: &mut UnionFind) {
 
 /// Unites elements of equal key within one cell of a grid of `size` metres.
 fn join_close(mesh: &PatchMesh, keys: &[Key], size: f32, clusters: &mut UnionFind) {
-    let mut first_of: HashMap<(Key, IVec3), u32> = HashMap::new();
+    let mut first_of: FxHashMap<(Key, IVec3), u32> = FxHashMap::default();
     for (e, element) in mesh.elements.iter().enumerate() {
         let cell = (mesh.centroid(element) / size).floor().as_ivec3();
         let first = *first_of.entry((keys[e], cell)).or_insert(e as u32);
@@ -97,7 +96,7 @@ fn join_close(mesh: &PatchMesh, keys: &[Key], size: f32, clusters: &mut UnionFin
 
 /// Gives every cluster a patch id, in the order of its first element.
 fn number_patches(mesh: &mut PatchMesh, clusters: &mut UnionFind) {
-    let mut patch_of_root: HashMap<u32, PatchId> = HashMap::new();
+    let mut patch_of_root: FxHashMap<u32, PatchId> = FxHashMap::default();
     for e in 0..mesh.elements.len() {
         let next = PatchId::new(patch_of_root.len());
         mesh.elements[e].patch = *patch_of_root.entry(clusters.root(e as u32)).or_insert(next);

@@ -6,9 +6,8 @@
 //!
 //! Source: Rivara 1984, "Algorithms for refining triangular grids based on bisection techniques" (propagation).
 
-use std::collections::HashSet;
-
 use glam::Vec3;
+use rustc_hash::FxHashSet;
 
 use super::{MeshError, PatchMesh, subdivide};
 use crate::scene::Scene;
@@ -18,7 +17,7 @@ const MAX_RECUTS: usize = 1000;
 
 /// Edges to be halved, by the bits of their ends.
 #[derive(Clone, Debug, Default)]
-pub struct Splits(HashSet<[[u32; 3]; 2]>);
+pub struct Splits(FxHashSet<[[u32; 3]; 2]>);
 
 impl Splits {
     /// Asks for the edge between two places to be halved.

@@ -6,9 +6,8 @@
 //!
 //! Source: Rivara 1984, "Algorithms for refining triangular grids"; Baum, Mann, Smith, Winget 1991 (why T-vertices hurt).
 
-use std::collections::HashMap;
-
 use glam::Vec3;
+use rustc_hash::FxHashMap;
 use thiserror::Error;
 
 use super::splits::Splits;
@@ -58,13 +57,13 @@ struct Cutter<'a> {
     mesh: PatchMesh,
     max_edge_squared: f32,
     /// Midpoint vertex of a pair of vertices.
-    midpoints: HashMap<[u32; 2], u32>,
+    midpoints: FxHashMap<[u32; 2], u32>,
     /// Midpoint light vertex of a pair of light vertices.
-    light_midpoints: HashMap<[u32; 2], u32>,
+    light_midpoints: FxHashMap<[u32; 2], u32>,
     /// Flipped copies of input vertices, for the backs of double-sided triangles.
-    flipped: HashMap<u32, u32>,
+    flipped: FxHashMap<u32, u32>,
     /// Welded light vertices by position bits and quantised normal.
-    welded: HashMap<LightKey, u32>,
+    welded: FxHashMap<LightKey, u32>,
 }
 
 impl<'a> Cutter<'a> {
@@ -73,10 +72,10 @@ impl<'a> Cutter<'a> {
             splits,
             mesh: PatchMesh::default(),
             max_edge_squared: element_size * element_size,
-            midpoints: HashMap::new(),
-            light_midpoints: HashMap::new(),
-            flipped: HashMap::new(),
-            welded: HashMap::new(),
+            midpoints: FxHashMap::default(),
+            light_midpoints: FxHashMap::default(),
+            flipped: FxHashMap::default(),
+            welded: FxHashMap::default(),
         };
         for vertex in &scene.vertices {
             cutter.add_welded(*vertex);

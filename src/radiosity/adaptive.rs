@@ -8,9 +8,8 @@
 //! Source: Cohen, Greenberg, Immel, Brock 1986 (elements within patches); Vedel, Puech 1991, "A testbed for adaptive
 //! subdivision in progressive radiosity" (the test at midpoints).
 
-use std::collections::{HashMap, HashSet};
-
 use glam::Vec3;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::field::Field;
 use super::sites::Sites;
@@ -76,7 +75,7 @@ impl<'a> Cut<'a> {
         let (mut mesh, mut lit) = (mesh, lit);
         let mut known = Known::default();
         known.add(mesh.light_vertices.iter().map(key_of), &lit);
-        let mut tested = HashSet::new();
+        let mut tested = FxHashSet::default();
         loop {
             let room = settings.max_elements.saturating_sub(mesh.elements.len()) / ELEMENTS_A_SPLIT;
             let edges = untested_edges(&mesh, settings.min_edge, &mut tested);
@@ -165,8 +164,8 @@ impl Edge {
 }
 
 /// Edges that are long enough and have not been looked at.
-fn untested_edges(mesh: &PatchMesh, min_edge: f32, tested: &mut HashSet<[LightKey; 2]>) -> Vec<Edge> {
-    let mut index_of: HashMap<[usize; 2], usize> = HashMap::new();
+fn untested_edges(mesh: &PatchMesh, min_edge: f32, tested: &mut FxHashSet<[LightKey; 2]>) -> Vec<Edge> {
+    let mut index_of: FxHashMap<[usize; 2], usize> = FxHashMap::default();
     let mut edges: Vec<Edge> = Vec::new();
     for (e, element) in mesh.elements.iter().enumerate() {
         let corners = mesh.light_vertices_of(element);
@@ -195,7 +194,7 @@ fn untested_edges(mesh: &PatchMesh, min_edge: f32, tested: &mut HashSet<[LightKe
 /// Light that has been found, by place and normal.
 #[derive(Default)]
 struct Known {
-    index_of: HashMap<LightKey, usize>,
+    index_of: FxHashMap<LightKey, usize>,
     num_columns: usize,
     light: Vec<Vec3>,
     is_open: Vec<bool>,

@@ -6,9 +6,8 @@
 //!
 //! Source: Ward, Rubinstein, Clear 1988, "A ray tracing solution for diffuse interreflection".
 
-use std::collections::HashMap;
-
 use glam::{IVec3, Vec3};
+use rustc_hash::FxHashMap;
 
 use crate::form_factor::Viewpoint;
 
@@ -37,7 +36,7 @@ pub struct IrradianceCache {
     /// Largest error at which a record may be borrowed from.
     tolerance: f32,
     max_radius: f32,
-    levels: Vec<HashMap<IVec3, Vec<Record>>>,
+    levels: Vec<FxHashMap<IVec3, Vec<Record>>>,
 }
 
 impl IrradianceCache {
@@ -56,7 +55,7 @@ impl IrradianceCache {
         let halvings = (self.max_radius / radius.max(f32::MIN_POSITIVE)).log2();
         let level = (halvings.max(0.0) as usize).min(MAX_LEVEL);
         if self.levels.len() <= level {
-            self.levels.resize_with(level + 1, HashMap::new);
+            self.levels.resize_with(level + 1, FxHashMap::default);
         }
         let low = self.cell(level, viewpoint.position - BLEND * radius);
         let high = self.cell(level, viewpoint.position + BLEND * radius);

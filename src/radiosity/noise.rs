@@ -4,9 +4,8 @@
 //! What one look finds must not decide how many are taken at its own place: looks that miss a bright thing would seem exact,
 //! and light would be lost. The places round it decide.
 
-use std::collections::HashMap;
-
 use glam::IVec3;
+use rustc_hash::FxHashMap;
 
 use super::field::Field;
 use crate::base::colour::luminance;
@@ -31,7 +30,7 @@ pub struct Noise {
     tolerance: f32,
     /// Width of a cell, metres.
     width: f32,
-    cells: HashMap<Cell, Met>,
+    cells: FxHashMap<Cell, Met>,
     /// All cells together.
     all: Met,
 }
@@ -60,7 +59,7 @@ impl Noise {
     /// Nothing is known of any place; those within `width` metres are taken for equally noisy.
     #[must_use]
     pub fn new(tolerance: f32, width: f32) -> Self {
-        Self { tolerance, width, cells: HashMap::new(), all: Met::default() }
+        Self { tolerance, width, cells: FxHashMap::default(), all: Met::default() }
     }
 
     /// How many looks bring the noise at a place down to the tolerance.
