@@ -1,5 +1,6 @@
 // node three.mjs BAKED.glb PICTURE.png CAMERA OUT.png: the file in three.js, in headless Chromium, beside our own picture
 // through the same camera at the exposure that the file states. Fails where they differ by more than the tolerance.
+// The light is in vertex colours, or in a texture that the loader takes by the plugin below (MOZ_lightmap).
 //
 // Programs differ in how they filter textures and smooth edges, which is not what is asked here. So both pictures are
 // drawn large, where either shows its textures in full, and squares of SHRINK x SHRINK pixels are compared by their means.
@@ -31,7 +32,17 @@ const page = `<!doctype html><script type="importmap">{"imports": {"three": "/th
   const renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
   renderer.setSize(${ours.width}, ${ours.height});
   renderer.toneMapping = THREE.NoToneMapping;
-  const gltf = await new GLTFLoader().loadAsync('/scene.glb');
+  const lightmaps = (parser) => ({
+    name: 'MOZ_lightmap',
+    async extendMaterialParams(index, params) {
+      const lightmap = parser.json.materials[index].extensions?.MOZ_lightmap;
+      if (!lightmap) return;
+      params.lightMap = await parser.getDependency('texture', lightmap.index);
+      params.lightMap.channel = lightmap.texCoord;
+      params.lightMapIntensity = lightmap.intensity;
+    },
+  });
+  const gltf = await new GLTFLoader().register(lightmaps).loadAsync('/scene.glb');
   const scene = new THREE.Scene().add(gltf.scene);
   scene.background = new THREE.Color().setRGB(0.02, 0.02, 0.02);
   const camera = gltf.cameras.find((camera) => [camera.name, camera.parent.name].includes(
@@ -43,7 +54,8 @@ const page = `<!doctype html><script type="importmap">{"imports": {"three": "/th
   const picture = renderer.domElement.toDataURL('image/png');
   scene.traverse((mesh) => {
     if (!mesh.isMesh) return;
-    const { map, side } = mesh.material;
+    const { map, side, lightMap } = mesh.material;
+    if (lightMap) return; // What is too bright is what is shown: no tone map came before the paint.
     mesh.material = new THREE.MeshBasicMaterial({ vertexColors: true, side, color: map ? 0xffffff : 0x000000 });
   });
   renderer.render(scene, camera);
