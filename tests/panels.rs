@@ -26,6 +26,7 @@ const SIDE: u32 = 312;
 fn facts(scene: &Scene) -> Facts<'_> {
     Facts {
         scene: Some(scene),
+        variant: None,
         light: LightState::Baked { elapsed: Duration::from_secs(3) },
         num_elements: Some(41_234),
         eye: Some(Eye::looking_along(Vec3::new(2.8, 1.65, 2.0), Vec3::NEG_Z)),

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 
-use super::bake_options::BakeOptions;
+use super::bake_options::{BakeOptions, VariantOption};
 use crate::viewer::{self, ViewerOptions};
 
 /// Options of the viewer.
@@ -14,6 +14,9 @@ pub struct ViewArgs {
     /// Scene to open: .glb or .gltf, also a baked one (FILE#NAME chooses one of its scenes), or builtin:NAME
     /// [default: builtin:gallery].
     pub scene: Option<PathBuf>,
+    /// Which materials it wears at first.
+    #[command(flatten)]
+    pub variant: VariantOption,
     /// How to bake a scene that brings no light.
     #[command(flatten)]
     pub bake: BakeOptions,
@@ -27,6 +30,11 @@ pub struct ViewArgs {
 /// # Errors
 /// There is no display, or no graphics device that can draw into a window.
 pub fn run(args: &ViewArgs) -> Result<()> {
-    let ViewArgs { scene, bake, frame_log } = args;
-    viewer::run(ViewerOptions { scene: scene.clone(), settings: bake.settings(), frame_log: frame_log.clone() })
+    let ViewArgs { scene, variant, bake, frame_log } = args;
+    viewer::run(ViewerOptions {
+        scene: scene.clone(),
+        variant: variant.variant.clone(),
+        settings: bake.settings(),
+        frame_log: frame_log.clone(),
+    })
 }

@@ -24,7 +24,7 @@ impl Walkthrough {
     pub(super) fn open(&mut self, path: PathBuf) {
         self.panels.notice = Some(Notice::new(format!("Opening {}", path.display())));
         let settings = self.next_settings();
-        let outcome = self.session.open(Source::of(path), settings);
+        let outcome = self.session.open(Source::of(path), None, settings);
         self.report(outcome);
     }
 
@@ -74,12 +74,16 @@ impl Walkthrough {
             }
             Command::CancelBake => self.cancel(),
             Command::OpenBuiltIn => {
-                let outcome = self.session.open(Source::default(), self.next_settings());
+                let outcome = self.session.open(Source::default(), None, self.next_settings());
                 self.report(outcome);
             }
             Command::Open(path) => self.open(path),
             Command::ChooseFile => self.choose_file(),
             Command::Reload => self.reload("Reading the file again"),
+            Command::Wear(variant) => {
+                let outcome = self.session.wear(variant, self.next_settings());
+                self.report(outcome);
+            }
             Command::FitLuxScale => self.fit_lux_scale(),
             Command::Jump(_)
             | Command::StepCamera(_)

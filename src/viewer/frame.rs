@@ -65,6 +65,7 @@ impl Walkthrough {
         let sees = |point| place.is_some_and(|place| place.sees(point));
         let facts = Facts {
             scene: place.map(|place| &*place.scene),
+            variant: self.session.variant(),
             light: self.session.light_state(),
             num_elements: self.session.num_elements(),
             eye: place.map(|place| place.traveller.eye),

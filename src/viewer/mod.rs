@@ -57,6 +57,8 @@ use crate::bake::BakeSettings;
 pub struct ViewerOptions {
     /// A glTF file; none opens the built-in scene.
     pub scene: Option<PathBuf>,
+    /// The material variant of the file that is worn; none for the materials worn without.
+    pub variant: Option<String>,
     /// How it is baked, where the file brings no light.
     pub settings: BakeSettings,
     /// Where to log the time of each frame.

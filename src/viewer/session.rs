@@ -24,6 +24,8 @@ pub struct Session {
     pub place: Option<Place>,
     /// Where the open scene, or the one that is being read, comes from.
     source: Source,
+    /// The material variant of the file that is worn.
+    variant: Option<String>,
     /// From where a scene that is read again is seen.
     kept_eye: Option<Eye>,
     watch: Option<FileWatch>,
@@ -60,6 +62,7 @@ impl Session {
             window,
             place: None,
             source: Source::default(),
+            variant: None,
             kept_eye: None,
             watch: None,
             worker: None,
@@ -73,14 +76,23 @@ impl Session {
         }
     }
 
-    /// Reads a scene and bakes it; the one that is open stays until the new one is read.
+    /// Reads a scene in a material variant and bakes it; the one that is open stays until the new one is read.
     ///
     /// # Errors
     /// The system gives no thread.
-    pub fn open(&mut self, source: Source, settings: BakeSettings) -> anyhow::Result<()> {
+    pub fn open(&mut self, source: Source, variant: Option<String>, settings: BakeSettings) -> anyhow::Result<()> {
         self.kept_eye = None;
-        self.source = source.clone();
-        self.start(Job::Open(source, settings))
+        (self.source, self.variant) = (source, variant);
+        self.read(settings)
+    }
+
+    /// Reads the open file in another material variant and stays where one is.
+    ///
+    /// # Errors
+    /// The system gives no thread.
+    pub fn wear(&mut self, variant: Option<String>, settings: BakeSettings) -> anyhow::Result<()> {
+        self.variant = variant;
+        self.reload(settings)
     }
 
     /// Reads the open file again and stays where one is.
@@ -89,7 +101,11 @@ impl Session {
     /// The system gives no thread.
     pub fn reload(&mut self, settings: BakeSettings) -> anyhow::Result<()> {
         self.kept_eye = self.place.as_ref().map(|place| place.traveller.eye);
-        self.start(Job::Open(self.source.clone(), settings))
+        self.read(settings)
+    }
+
+    fn read(&mut self, settings: BakeSettings) -> anyhow::Result<()> {
+        self.start(Job::Open(self.source.clone(), self.variant.clone(), settings))
     }
 
     /// Bakes the open scene anew; a file that is a bake stays as it is.
@@ -140,6 +156,12 @@ impl Session {
     #[must_use]
     pub fn name(&self) -> PathBuf {
         self.source.name()
+    }
+
+    /// The material variant of the file that is worn.
+    #[must_use]
+    pub fn variant(&self) -> Option<&str> {
+        self.variant.as_deref()
     }
 
     /// Where the light stands.

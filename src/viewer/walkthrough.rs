@@ -81,7 +81,7 @@ impl Walkthrough {
         let mut session = Session::new(Arc::clone(&screen.gpu), proxy);
         let memory = Memory::place().map_or_else(Memory::default, |path| Memory::read(&path));
         let source = options.scene.clone().map_or_else(Source::default, Source::of);
-        session.open(source, options.settings)?;
+        session.open(source, options.variant.clone(), options.settings)?;
         Ok(Self {
             adapter: screen.gpu.name(),
             picture_size: screen.size(),

@@ -45,6 +45,8 @@ pub enum Command {
     ChooseFile,
     /// Read the open file again.
     Reload,
+    /// Read the open file in another material variant; none is what it wears without.
+    Wear(Option<String>),
     /// What a click in the picture does.
     Take(Tool),
     /// Keep the meter's reading.

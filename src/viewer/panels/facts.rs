@@ -21,6 +21,8 @@ use std::sync::Arc;
 pub struct Facts<'a> {
     /// The open scene.
     pub scene: Option<&'a Scene>,
+    /// The material variant of the file that is worn.
+    pub variant: Option<&'a str>,
     /// State of its light.
     pub light: LightState,
     /// Triangles that carry light; none before they are known.

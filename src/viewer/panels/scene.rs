@@ -1,6 +1,6 @@
 //! Scene: objects, materials and lights by name; select, hide, go there.
 
-use egui::{CollapsingHeader, Role, ScrollArea, TextEdit, Ui};
+use egui::{CollapsingHeader, ComboBox, Role, ScrollArea, TextEdit, Ui};
 
 use super::widgets::{grouped, hint, named, row};
 use super::{Command, Facts, Selection};
@@ -10,6 +10,9 @@ use crate::scene::{LightKind, Scene};
 /// Height of a list that scrolls, points.
 const LIST_HEIGHT: f32 = 190.0;
 
+/// What a file wears where no variant is chosen.
+const NO_VARIANT: &str = "as it comes";
+
 pub fn scene_ui(ui: &mut Ui, selection: &mut Selection, facts: &Facts<'_>, commands: &mut Vec<Command>) {
     let Some(scene) = facts.scene else {
         hint(ui, "Nothing is open.");
@@ -17,12 +20,30 @@ pub fn scene_ui(ui: &mut Ui, selection: &mut Selection, facts: &Facts<'_>, comma
     };
     let size = scene.bounds().1 - scene.bounds().0;
     row(ui, "Size", format!("{:.1} x {:.1} x {:.1} m", size.x, size.y, size.z));
+    variant_ui(ui, scene, facts.variant, commands);
     let filter =
         ui.add(TextEdit::singleline(&mut selection.filter).hint_text("find a name").desired_width(f32::INFINITY));
     named(&filter, Role::TextInput, "Find a name");
     objects_ui(ui, scene, selection, commands);
     materials_ui(ui, scene, &selection.filter);
     lights_ui(ui, scene, &selection.filter);
+}
+
+/// The file's material variants, where it has any.
+fn variant_ui(ui: &mut Ui, scene: &Scene, worn: Option<&str>, commands: &mut Vec<Command>) {
+    if scene.variants.is_empty() {
+        return;
+    }
+    let mut chosen = worn;
+    ComboBox::from_label("Variant").selected_text(worn.unwrap_or(NO_VARIANT)).show_ui(ui, |ui| {
+        ui.selectable_value(&mut chosen, None, NO_VARIANT);
+        for name in &scene.variants {
+            ui.selectable_value(&mut chosen, Some(name), name);
+        }
+    });
+    if chosen != worn {
+        commands.push(Command::Wear(chosen.map(str::to_owned)));
+    }
 }
 
 fn objects_ui(ui: &mut Ui, scene: &Scene, selection: &mut Selection, commands: &mut Vec<Command>) {

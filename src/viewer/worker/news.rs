@@ -14,8 +14,8 @@ use crate::viewer::solved::Solved;
 
 /// What a worker is asked to do.
 pub enum Job {
-    /// Loads a scene, and bakes it where it brings no light of its own.
-    Open(Source, BakeSettings),
+    /// Loads a scene in a material variant, and bakes it where it brings no light of its own.
+    Open(Source, Option<String>, BakeSettings),
     /// Bakes a scene that is open (again).
     Bake(Arc<Scene>, BakeSettings),
 }

@@ -36,7 +36,7 @@ pub struct Runner {
 impl Runner {
     pub fn run(&self, job: Job) {
         let outcome = match job {
-            Job::Open(source, settings) => self.open(&source, &settings),
+            Job::Open(source, variant, settings) => self.open(&source, variant, &settings),
             Job::Bake(scene, settings) => self.bake(&scene, &settings),
         };
         if let Err(error) = outcome {
@@ -44,8 +44,8 @@ impl Runner {
         }
     }
 
-    fn open(&self, source: &Source, settings: &BakeSettings) -> anyhow::Result<()> {
-        let mut scene = source.load()?;
+    fn open(&self, source: &Source, variant: Option<String>, settings: &BakeSettings) -> anyhow::Result<()> {
+        let mut scene = source.load(variant)?;
         let mut advice = Advice::of_scene(&scene);
         if default_sky::is_needed(&scene) {
             default_sky::add(&mut scene);

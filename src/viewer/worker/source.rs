@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::Context;
 
+use crate::scene::gltf::LoadOptions;
 use crate::scene::{Scene, builtin, gltf};
 
 /// Where a scene comes from.
@@ -52,14 +53,14 @@ impl Source {
         }
     }
 
-    /// Reads or makes the scene.
+    /// Reads or makes the scene; a file in the material variant of that name.
     ///
     /// # Errors
-    /// There is no such scene, or the file is not right.
-    pub fn load(&self) -> anyhow::Result<Scene> {
+    /// There is no such scene or variant, or the file is not right.
+    pub fn load(&self, variant: Option<String>) -> anyhow::Result<Scene> {
         match self {
             Self::BuiltIn(name) => builtin::by_name(name).with_context(|| format!("there is no built-in scene {name}")),
-            Self::File(path) => Ok(gltf::load(path)?),
+            Self::File(path) => Ok(gltf::load_with(path, &LoadOptions { variant })?),
         }
     }
 }
@@ -72,7 +73,7 @@ mod tests {
     fn a_name_after_builtin_is_no_file() {
         assert_eq!(Source::of("builtin:cornell".into()), Source::BuiltIn("cornell".into()));
         assert_eq!(Source::of("rooms/hall.glb".into()), Source::File("rooms/hall.glb".into()));
-        let message = Source::BuiltIn("castle".into()).load().map(|scene| scene.name).unwrap_err().to_string();
+        let message = Source::BuiltIn("castle".into()).load(None).map(|scene| scene.name).unwrap_err().to_string();
         assert!(message.contains("castle"), "{message}");
     }
 

@@ -7,6 +7,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::Vec3;
 
+mod scene;
 mod shadows;
 
 use super::*;
@@ -33,6 +34,7 @@ fn facts(scene: Option<&'static Scene>, light: LightState) -> Facts<'static> {
     let sizes = MeshSettings { element_size: 0.1, patch_size: 0.5 };
     Facts {
         scene,
+        variant: None,
         light,
         num_elements: None,
         eye: scene.map(|_| Eye::looking_along(Vec3::ZERO, Vec3::NEG_Z)),
