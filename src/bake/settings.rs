@@ -114,7 +114,7 @@ impl BakeSettings {
             refine_error: 0.04,
             min_edge: 1.0 / 8.0,
             sharp_edge: 1.0 / 64.0,
-            max_growth: 12.0,
+            max_growth: 10.0,
             target_patches: 1_500.0,
             points_a_patch: 2,
             cache_tolerance: 0.1,
