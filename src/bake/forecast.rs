@@ -47,9 +47,8 @@ impl Forecast {
     #[must_use]
     pub fn of_mesh(scene: &Scene, mesh: &PatchMesh, settings: &BakeSettings) -> Self {
         let added = if settings.refine_error > 0.0 {
-            TYPICAL_GROWTH[usize::from(!scene.lights.is_empty())]
-                * f64::from(settings.max_growth)
-                * settings.target_elements
+            let most = settings.max_elements(scene).saturating_sub(mesh.elements.len());
+            TYPICAL_GROWTH[usize::from(!scene.lights.is_empty())] * most as f64
         } else {
             0.0
         };

@@ -60,7 +60,7 @@ pub struct BakeSettings {
     pub min_edge: f32,
     /// Shortest edges of hard shadows in the result, in element sizes.
     pub sharp_edge: f32,
-    /// About the most elements, as a multiple of those aimed at; small input triangles come on top.
+    /// About the most elements, as a multiple of those aimed at and half of the input triangles.
     pub max_growth: f32,
     /// Patches that the patch size aims at.
     pub target_patches: f64,
@@ -96,6 +96,9 @@ pub(super) const ROW_BYTES: usize = 1 << 30;
 
 /// Mean area of an element in squares of the element size (bisection ends between 1/8 and 1/4).
 const AREA_OF_ELEMENT: f64 = 0.18;
+
+/// Elements that an input triangle is worth beyond those aimed at: what is modelled finely has edges that throw shadows.
+const ELEMENTS_A_TRIANGLE: f64 = 0.5;
 
 impl BakeSettings {
     /// The values of a preset.
@@ -170,15 +173,20 @@ impl BakeSettings {
         MeshSettings { element_size, patch_size }
     }
 
+    /// About the most elements that light may cut the scene into.
+    pub(super) fn max_elements(&self, scene: &Scene) -> usize {
+        let aim = self.target_elements + ELEMENTS_A_TRIANGLE * scene.triangles.len() as f64;
+        (f64::from(self.max_growth) * aim) as usize
+    }
+
     /// How elements follow direct light before it is reflected.
     pub(super) fn refine(&self, scene: &Scene, sizes: &MeshSettings) -> RefineSettings {
-        let for_light = f64::from(self.max_growth) * self.target_elements;
         let min_edge = self.min_edge * sizes.element_size;
         RefineSettings {
             max_error: self.refine_error,
             short_edge: 2.0 * min_edge,
             min_edge,
-            max_elements: for_light as usize + 2 * scene.triangles.len(),
+            max_elements: self.max_elements(scene),
         }
     }
 
