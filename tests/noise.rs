@@ -1,6 +1,7 @@
 //! Noise of gathered light: how much there is can be told from one look, and several looks take it away.
 
 use glam::Vec3;
+use hemicube::bake::{BakeSettings, Quality, bake};
 use hemicube::base::progress::Unwatched;
 use hemicube::base::sampling::{hash, r2};
 use hemicube::form_factor::hemisphere::Hemispheres;
@@ -87,4 +88,20 @@ fn the_places_round_it_decide_how_often_a_place_is_looked_from() {
     assert_eq!(noise.looks(&site(0.8, Vec3::X)), 1, "faces another way");
     noise.learn(&site(1.5, Vec3::Y), 2.0, 4.0);
     assert_eq!(noise.looks(&site(1.2, Vec3::Y)), 16, "no more than is worth it");
+}
+
+#[test]
+fn a_lamp_too_bright_and_too_near_for_its_noise_to_be_a_number_is_looked_at_all_the_same() {
+    let mut builder = scenes::SceneBuilder::default();
+    let white = builder.material(Vec3::splat(0.7), Vec3::ZERO);
+    builder.room(Vec3::ZERO, Vec3::new(3.0, 2.0, 2.5), [white; 6]);
+    builder.point_light(Vec3::new(1.0, 1e-4, 1.0), Vec3::splat(1e15), 0);
+    let settings = BakeSettings { element_size: Some(0.4), ..BakeSettings::preset(Quality::Draft) };
+    let baked = bake(None, &builder.build(1), &settings, &Unwatched).unwrap().baked;
+    assert!(baked.light.groups[0].indirect.iter().all(|light| light.is_finite() && light.min_element() >= 0.0));
+    // The variance of one look is beyond all numbers.
+    let site = Viewpoint { position: Vec3::ZERO, normal: Vec3::Y, seed: 0 };
+    let mut noise = Noise::new(0.1, 1.0);
+    noise.learn(&site, 1e25, f32::INFINITY);
+    assert!((1..=16).contains(&noise.looks(&site)));
 }

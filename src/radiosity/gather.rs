@@ -19,7 +19,8 @@ use crate::base::sampling::{hash, tangent_frame};
 use crate::form_factor::{FormFactorError, FormFactors, MAX_BACK_SHARE, Row, Viewpoint, map_rows};
 use crate::patch::PatchMesh;
 
-/// Most sites gathered before the cache is asked again, and of the first round: later ones are twice as large as all before.
+/// Sites gathered before the cache and the noise are asked again: few at first, so that what they find serves the next, then
+/// twice as many as before, at most `ROUND`.
 const ROUND: usize = 512;
 const FIRST_ROUND: usize = 32;
 
@@ -141,15 +142,17 @@ impl<'a> Gatherer<'a> {
             let looks = chosen.iter().zip(&num_looks).flat_map(|(&site, &n)| (0..n).map(move |i| (site, i)));
             let looks: Vec<Viewpoint> = looks.map(|(site, i)| other_look(&sites[site as usize], i)).collect();
             let num_samples = method.num_samples() as f32;
-            let see = |index: usize, row: &Row| self.see(row, &looks[index], num_samples);
+            let see = |index: usize, row: &Row| {
+                (self.see(row, &looks[index]), irradiance_and_variance(row, self.radiosity, num_samples))
+            };
             let mut sights = map_rows(method, &looks, &go_on, see)?.into_iter();
             for (&site, &num_looks) in chosen.iter().zip(&num_looks) {
-                let seen: Vec<Sight> = sights.by_ref().take(num_looks as usize).collect();
+                let (seen, noise): (Vec<Sight>, Vec<_>) = sights.by_ref().take(num_looks as usize).unzip();
                 if seen.len() < num_looks as usize {
                     break;
                 }
                 let viewpoint = &sites[site as usize];
-                seen.iter().for_each(|sight| self.noise.learn(viewpoint, sight.luminance, sight.variance));
+                noise.iter().for_each(|&(irradiance, variance)| self.noise.learn(viewpoint, irradiance, variance));
                 self.num_hemicubes += seen.len();
                 let sight = Sight::mean(seen);
                 gathered.enter(site as usize, &sight);
@@ -179,7 +182,7 @@ impl<'a> Gatherer<'a> {
     }
 
     /// Irradiance, back faces, distances and contacts from one row.
-    fn see(&self, row: &Row, viewpoint: &Viewpoint, num_samples: f32) -> Sight {
+    fn see(&self, row: &Row, viewpoint: &Viewpoint) -> Sight {
         let mut irradiance = vec![Vec3::ZERO; self.radiosity.num_groups()];
         let (mut inverse_distance, mut seen) = (0.0, 0.0);
         for entry in &row.entries {
@@ -192,8 +195,7 @@ impl<'a> Gatherer<'a> {
         }
         let distance = if inverse_distance > 0.0 { seen / inverse_distance } else { f32::MAX };
         let (contacts, nearest) = self.contacts.of(row, viewpoint.position);
-        let (luminance, variance) = irradiance_and_variance(row, self.radiosity, num_samples);
-        Sight { irradiance, contacts, back: row.back, distance, nearest, luminance, variance }
+        Sight { irradiance, contacts, back: row.back, distance, nearest }
     }
 
     fn remember(&mut self, viewpoint: &Viewpoint, sight: Sight) {

@@ -12,10 +12,10 @@ use crate::base::colour::luminance;
 use crate::form_factor::{Row, Viewpoint};
 
 /// Most looks that one place is worth.
-const MAX_LOOKS: f32 = 16.0;
+const MAX_LOOKS: u32 = 16;
 
 /// Irradiance that noise is measured beside even in the dark, as a share of the mean.
-const FLOOR: f32 = 0.1;
+const FLOOR: f64 = 0.1;
 
 /// Neighbouring samples see the same thing where their radiosities differ by less than this factor.
 const ALIKE: f32 = 2.0;
@@ -38,19 +38,19 @@ pub struct Noise {
 /// Sums over looks.
 #[derive(Clone, Copy, Debug, Default)]
 struct Met {
-    num_looks: f32,
-    irradiance: f32,
-    variance: f32,
+    num_looks: f64,
+    irradiance: f64,
+    variance: f64,
 }
 
 impl Met {
     fn add(&mut self, irradiance: f32, variance: f32) {
         self.num_looks += 1.0;
-        self.irradiance += irradiance;
-        self.variance += variance;
+        self.irradiance += f64::from(irradiance);
+        self.variance += f64::from(variance);
     }
 
-    fn mean_irradiance(&self) -> f32 {
+    fn mean_irradiance(&self) -> f64 {
         self.irradiance / self.num_looks
     }
 }
@@ -67,8 +67,9 @@ impl Noise {
     pub fn looks(&self, viewpoint: &Viewpoint) -> u32 {
         let Some(met) = self.cells.get(&self.cell(viewpoint)) else { return 1 };
         let irradiance = met.mean_irradiance().max(FLOOR * self.all.mean_irradiance());
-        let tolerated = (self.tolerance * irradiance).powi(2).max(f32::MIN_POSITIVE);
-        (met.variance / met.num_looks / tolerated).clamp(1.0, MAX_LOOKS).round() as u32
+        let tolerated = (f64::from(self.tolerance) * irradiance).powi(2).max(f64::MIN_POSITIVE);
+        // Of light too bright for its variance to be a number the cast makes 0: one look.
+        ((met.variance / met.num_looks / tolerated).round() as u32).clamp(1, MAX_LOOKS)
     }
 
     /// Enters the irradiance that one look found at a place, and its variance.

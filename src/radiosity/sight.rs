@@ -16,9 +16,6 @@ pub(super) struct Sight {
     pub distance: f32,
     /// Distance of the nearest place on an element, metres.
     pub nearest: f32,
-    /// Luminous irradiance of all groups, and the variance that sampling leaves in it.
-    pub luminance: f32,
-    pub variance: f32,
 }
 
 impl Sight {
@@ -26,7 +23,6 @@ impl Sight {
     pub fn mean(mut looks: Vec<Self>) -> Self {
         let share = (looks.len() as f32).recip();
         let mean = |value: fn(&Self) -> f32| share * looks.iter().map(value).sum::<f32>();
-        let (luminance, variance) = (mean(|look| look.luminance), share * mean(|look| look.variance));
         let back = mean(|look| look.back);
         let distance = mean(|look| look.distance.recip()).recip();
         let nearest = looks.iter().map(|look| look.nearest).fold(f32::MAX, f32::min);
@@ -36,6 +32,6 @@ impl Sight {
         }
         let contacts = looks.iter_mut().flat_map(|look| look.contacts.drain(..));
         let contacts = contacts.map(|(element, part)| (element, share * part)).collect();
-        Self { irradiance, contacts, back, distance, nearest, luminance, variance }
+        Self { irradiance, contacts, back, distance, nearest }
     }
 }
