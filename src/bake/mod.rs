@@ -118,10 +118,7 @@ pub fn bake_with_rows(
     let sites = Sites::new(scene);
     let tracer = Tracer::new(scene);
     let lights = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays);
-    let refine = settings.refine(scene, &sizes);
-    let sharpen = settings.sharpen(refine, &sizes);
-    let gather = settings.gather(&sizes);
-    let lighting = Lighting { lights: &lights, tracer: &tracer, settings, refine, sharpen, gather, watch };
+    let lighting = Lighting::new(scene, &sizes, settings, &lights, &tracer, watch);
     let places = sites.of_light_vertices(&mesh);
     let (mesh, direct) = lighting.refine_by_direct(&mut cut, mesh, &places)?;
     if !watch.is_cancelled() {
@@ -148,15 +145,9 @@ pub fn bake_with_rows(
         Some(radiosity) => lighting.gather(seer, &mut cut, &mesh, &places, direct, &radiosity)?,
         None => LitVertices::without_indirect(direct),
     };
-    let LitVertices { refined, mut direct, gathered, num_hemicubes, backface_share } = lit;
-    let mut indirect = completed(&gathered, || estimate(&mesh, &solution));
-    if settings.solver == Solver::Gathering && settings.passes == Some(0) {
-        // Nothing has been reflected yet.
-        direct = Field::zero(direct.num_places(), direct.num_groups());
-    }
-    let mesh = refined.unwrap_or(mesh);
-    fill_hidden(&mesh, &gathered.is_valid, [&mut direct, &mut indirect]);
-    let baked = lit_mesh(scene, &mesh, &direct, &indirect);
+    let (num_gathered, backface_share) = (lit.num_hemicubes, lit.backface_share);
+    let hidden_vertices = lit.gathered.is_valid.iter().filter(|valid| !**valid).count();
+    let (mesh, baked) = put_on_mesh(scene, mesh, lit, settings, |mesh| estimate(mesh, &solution));
     watch.mesh(&baked);
     clock.lap(Stage::Gather);
 
@@ -171,7 +162,7 @@ pub fn bake_with_rows(
         patches: mesh.patches.len(),
         vertices: mesh.light_vertices.len(),
         light_groups: scene.light_groups.clone(),
-        hemicubes: num_viewpoints + num_hemicubes,
+        hemicubes: num_viewpoints + num_gathered,
         hemicube_px: settings.hemicube_px,
         shots: solution.num_shots,
         passes: num_passes,
@@ -182,11 +173,32 @@ pub fn bake_with_rows(
         reciprocity_residual,
         largest_neighbour_step: largest_neighbour_step(&baked.scene, &baked.light),
         backface_share,
-        hidden_vertices: gathered.is_valid.iter().filter(|valid| !**valid).count(),
+        hidden_vertices,
         seconds: Seconds { form_factors: form_factor_seconds, ..clock.seconds },
         memory_bytes: Memory { predicted, peak: peak_memory() },
     };
     Ok(Bake { baked, report, mesh })
+}
+
+/// The finished mesh with its light: vertices that were not gathered at have that of `estimate`, hidden ones that of those
+/// beside them.
+fn put_on_mesh(
+    scene: &Scene,
+    mesh: PatchMesh,
+    lit: LitVertices,
+    settings: &BakeSettings,
+    estimate: impl Fn(&PatchMesh) -> Field,
+) -> (PatchMesh, BakedScene) {
+    let LitVertices { refined, mut direct, gathered, .. } = lit;
+    let mut indirect = completed(&gathered, || estimate(&mesh));
+    if settings.solver == Solver::Gathering && settings.passes == Some(0) {
+        // Nothing has been reflected yet.
+        direct = Field::zero(direct.num_places(), direct.num_groups());
+    }
+    let mesh = refined.unwrap_or(mesh);
+    fill_hidden(&mesh, &gathered.is_valid, [&mut direct, &mut indirect]);
+    let baked = lit_mesh(scene, &mesh, &direct, &indirect);
+    (mesh, baked)
 }
 
 /// A mesh with light at its light vertices.

@@ -4,12 +4,13 @@ use super::watch::Watch;
 use super::{BakeError, BakeSettings};
 use crate::base::colour::luminance;
 use crate::form_factor::{FormFactors, Viewpoint};
-use crate::patch::PatchMesh;
+use crate::patch::{MeshSettings, PatchMesh};
 use crate::radiosity::Field;
 use crate::radiosity::adaptive::{Cut, Lit, RefineSettings};
 use crate::radiosity::direct::DirectLight;
 use crate::radiosity::element_light::is_inside;
 use crate::radiosity::gather::{GatherSettings, Gathered, Gatherer};
+use crate::scene::Scene;
 use crate::trace::Tracer;
 
 /// Light that errors are measured beside even in the dark, as a share of the mean over the vertices.
@@ -17,16 +18,30 @@ const FLOOR: f32 = 0.05;
 
 /// What refining asks for light.
 pub(super) struct Lighting<'a> {
-    pub lights: &'a DirectLight<'a>,
-    pub tracer: &'a Tracer<'a>,
+    lights: &'a DirectLight<'a>,
+    tracer: &'a Tracer<'a>,
     pub settings: &'a BakeSettings,
-    pub refine: RefineSettings,
-    pub sharpen: RefineSettings,
+    refine: RefineSettings,
+    sharpen: RefineSettings,
     pub gather: GatherSettings,
     pub watch: &'a dyn Watch,
 }
 
-impl Lighting<'_> {
+impl<'a> Lighting<'a> {
+    /// Refines and gathers as the settings want it on this scene.
+    pub(super) fn new(
+        scene: &Scene,
+        sizes: &MeshSettings,
+        settings: &'a BakeSettings,
+        lights: &'a DirectLight<'a>,
+        tracer: &'a Tracer<'a>,
+        watch: &'a dyn Watch,
+    ) -> Self {
+        let refine = settings.refine(scene, sizes);
+        let (sharpen, gather) = (settings.sharpen(refine, sizes), settings.gather(sizes));
+        Self { lights, tracer, settings, refine, sharpen, gather, watch }
+    }
+
     /// Refines a mesh until direct light is linear along its edges; returns it with the direct light `[l][g]`.
     pub(super) fn refine_by_direct(
         &self,
