@@ -8,7 +8,7 @@ use hemicube::form_factor::polygon::Polygon;
 use hemicube::form_factor::{FormFactors, Row, Viewpoint, map_rows};
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::sites::Sites;
-use hemicube::scene::Scene;
+use hemicube::scene::{Scene, builtin};
 use hemicube::trace::Tracer;
 
 use crate::support::device::gpu;
@@ -70,6 +70,23 @@ fn hemispheres_and_hemicubes_agree() {
         for (a, b) in by_triangle(rays, &mesh).into_iter().zip(by_triangle(pixels, &mesh)) {
             let error = Hemispheres::standard_error(f64::from(b), f64::from(NUM_RAYS)) as f32;
             assert!((a - b).abs() < 4.0 * error + 1e-3, "{a} and {b}");
+        }
+    }
+}
+
+#[test]
+fn what_hemicubes_leave_out_is_never_seen() {
+    let Some(gpu) = gpu() else { return };
+    for (scene, size_px) in
+        [(scenes::cluttered_room(5), 16), (builtin::gallery(), 64), (scenes::cluttered_room(6), 256)]
+    {
+        let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.5, patch_size: 2.0 }).unwrap();
+        let sites = Sites::new(&scene).of_light_vertices(&mesh);
+        let mut culled = Hemicubes::new(gpu, &scene, &mesh, size_px);
+        let mut whole = Hemicubes::new(gpu, &scene, &mesh, size_px).without_culling();
+        for viewpoint in sites.iter().step_by(sites.len() / 12) {
+            let (some, all) = (culled.elements_seen(viewpoint).unwrap(), whole.elements_seen(viewpoint).unwrap());
+            assert!(some == all, "{size_px} px: {viewpoint:?}");
         }
     }
 }

@@ -1,12 +1,12 @@
 //! The atlas of one submission: many hemicubes in one pair of textures, drawn in one pass, copied out in one copy.
 
 use std::num::NonZero;
-use std::ops::Range;
 
-use glam::Mat4;
+use glam::{Mat4, Vec3};
 
-use super::faces::{Frustum, NUM_FACES, cell_rectangle, projections};
+use super::faces::{NUM_FACES, cell_rectangle, projections};
 use super::geometry::Geometry;
+use super::indices::{Indices, lists_of};
 use crate::form_factor::Viewpoint;
 use crate::gpu::Gpu;
 
@@ -18,6 +18,9 @@ const ATLAS_HEIGHT: u32 = 1536;
 /// Bytes from one view to the next: what every device can offset a uniform by.
 const VIEW_STRIDE: usize = 256;
 
+/// Vertices of a draw call of everything: software drivers touch all of them again for every few clipped triangles.
+const MAX_VERTICES: u32 = 3 * 512;
+
 /// Targets and buffers of one submission in flight.
 pub(super) struct Atlas {
     items: wgpu::Texture,
@@ -25,6 +28,7 @@ pub(super) struct Atlas {
     depth_view: wgpu::TextureView,
     views: wgpu::Buffer,
     bindings: wgpu::BindGroup,
+    indices: Indices,
     readback: wgpu::Buffer,
 }
 
@@ -49,6 +53,35 @@ impl Layout {
         let cell = cell as u32;
         (cell % self.columns() * self.n, cell / self.columns() * 3 * self.n)
     }
+}
+
+/// One face of one hemicube.
+pub(super) struct Face {
+    pub clip_from_world: Mat4,
+    pub eye: Vec3,
+    /// Left, top, width and height in the atlas.
+    rectangle: [u32; 4],
+}
+
+impl Face {
+    /// Width and height, pixels.
+    pub(super) fn size(&self) -> (u32, u32) {
+        (self.rectangle[2], self.rectangle[3])
+    }
+}
+
+/// The faces of hemicubes that fill an atlas cell by cell.
+fn faces_of(viewpoints: &[Viewpoint], layout: Layout, near: f32) -> Vec<Face> {
+    let of_cell = |(cell, viewpoint): (usize, &Viewpoint)| {
+        let (left, top) = layout.origin(cell);
+        let eye = viewpoint.position;
+        let face = move |(face, clip_from_world)| {
+            let (width, height, down) = cell_rectangle(face, layout.n);
+            Face { clip_from_world, eye, rectangle: [left, top + down, width, height] }
+        };
+        projections(viewpoint, near).into_iter().enumerate().map(face)
+    };
+    viewpoints.iter().enumerate().flat_map(of_cell).collect()
 }
 
 impl Atlas {
@@ -92,12 +125,12 @@ impl Atlas {
         });
         let items_view = items.create_view(&wgpu::TextureViewDescriptor::default());
         let depth_view = depth.create_view(&wgpu::TextureViewDescriptor::default());
-        Self { items, items_view, depth_view, views, bindings, readback }
+        Self { items, items_view, depth_view, views, bindings, indices: Indices::new(gpu), readback }
     }
 
     /// Draws the hemicubes of `viewpoints` and asks for their items; returns what to wait for.
     pub(super) fn submit(
-        &self,
+        &mut self,
         gpu: &Gpu,
         pipeline: &wgpu::RenderPipeline,
         geometry: &Geometry,
@@ -105,34 +138,50 @@ impl Atlas {
         viewpoints: &[Viewpoint],
         near: f32,
     ) -> wgpu::SubmissionIndex {
-        let faces: Vec<[Mat4; NUM_FACES]> = viewpoints.iter().map(|v| projections(v, near)).collect();
-        let mut views = vec![0u8; faces.as_flattened().len() * VIEW_STRIDE];
-        for (view, matrix) in views.chunks_exact_mut(VIEW_STRIDE).zip(faces.as_flattened()) {
-            view[..size_of::<Mat4>()].copy_from_slice(bytemuck::bytes_of(matrix));
-        }
-        gpu.queue.write_buffer(&self.views, 0, &views);
-        let mut encoder =
-            gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("hemicubes") });
-        {
-            let mut pass = self.begin_pass(&mut encoder);
+        let faces = faces_of(viewpoints, layout, near);
+        self.write_views(gpu, &faces);
+        let mut drawn = 0;
+        while drawn < faces.len() {
+            let lists = geometry.culling.as_ref().map(|culling| lists_of(culling, &faces[drawn..]));
+            let ranges = lists.map(|lists| self.indices.write(gpu, &lists));
+            let count = ranges.as_ref().map_or(faces.len(), Vec::len);
+            let mut encoder = new_encoder(gpu);
+            let mut pass = self.begin_pass(&mut encoder, drawn == 0);
             pass.set_pipeline(pipeline);
             pass.set_vertex_buffer(0, geometry.vertices.slice(..));
-            let mut ranges: Vec<(f32, Range<u32>)> = Vec::new();
-            for (cell, matrices) in faces.iter().enumerate() {
-                let (left, top) = layout.origin(cell);
-                for (face, matrix) in matrices.iter().enumerate() {
-                    let (width, height, down) = cell_rectangle(face, layout.n);
-                    pass.set_viewport(left as f32, (top + down) as f32, width as f32, height as f32, 0.0, 1.0);
-                    pass.set_scissor_rect(left, top + down, width, height);
-                    let view = (cell * NUM_FACES + face) * VIEW_STRIDE;
-                    pass.set_bind_group(0, &self.bindings, &[view as u32]);
-                    geometry.visible_vertices(&Frustum::new(matrix), viewpoints[cell].position, &mut ranges);
-                    for (_, range) in &ranges {
-                        pass.draw(range.clone(), 0..1);
-                    }
+            pass.set_index_buffer(self.indices.buffer.slice(..), wgpu::IndexFormat::Uint32);
+            for i in 0..count {
+                self.begin_face(&mut pass, &faces, drawn + i);
+                match &ranges {
+                    Some(ranges) => pass.draw_indexed(ranges[i].clone(), 0, 0..1),
+                    None => draw_everything(&mut pass, geometry.num_vertices),
                 }
             }
+            drop(pass);
+            // What is written to the list of indices is seen by this submission and not by those before.
+            gpu.queue.submit([encoder.finish()]);
+            drawn += count;
         }
+        self.read_back(gpu)
+    }
+
+    fn write_views(&self, gpu: &Gpu, faces: &[Face]) {
+        let mut views = vec![0u8; faces.len() * VIEW_STRIDE];
+        for (view, face) in views.chunks_exact_mut(VIEW_STRIDE).zip(faces) {
+            view[..size_of::<Mat4>()].copy_from_slice(bytemuck::bytes_of(&face.clip_from_world));
+        }
+        gpu.queue.write_buffer(&self.views, 0, &views);
+    }
+
+    fn begin_face(&self, pass: &mut wgpu::RenderPass<'_>, faces: &[Face], index: usize) {
+        let [left, top, width, height] = faces[index].rectangle;
+        pass.set_viewport(left as f32, top as f32, width as f32, height as f32, 0.0, 1.0);
+        pass.set_scissor_rect(left, top, width, height);
+        pass.set_bind_group(0, &self.bindings, &[(index * VIEW_STRIDE) as u32]);
+    }
+
+    fn read_back(&self, gpu: &Gpu) -> wgpu::SubmissionIndex {
+        let mut encoder = new_encoder(gpu);
         encoder.copy_texture_to_buffer(
             self.items.as_image_copy(),
             wgpu::TexelCopyBufferInfo {
@@ -150,7 +199,8 @@ impl Atlas {
         submission
     }
 
-    fn begin_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder) -> wgpu::RenderPass<'a> {
+    fn begin_pass<'a>(&self, encoder: &'a mut wgpu::CommandEncoder, is_first: bool) -> wgpu::RenderPass<'a> {
+        let nothing = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("item buffer"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -158,7 +208,7 @@ impl Atlas {
                 depth_slice: None,
                 resolve_target: None,
                 ops: wgpu::Operations {
-                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    load: if is_first { nothing } else { wgpu::LoadOp::Load },
                     store: wgpu::StoreOp::Store,
                 },
             })],
@@ -180,6 +230,16 @@ impl Atlas {
     pub(super) fn release(&self) {
         self.readback.unmap();
     }
+}
+
+fn draw_everything(pass: &mut wgpu::RenderPass<'_>, num_vertices: u32) {
+    for first in (0..num_vertices).step_by(MAX_VERTICES as usize) {
+        pass.draw(first..(first + MAX_VERTICES).min(num_vertices), 0..1);
+    }
+}
+
+fn new_encoder(gpu: &Gpu) -> wgpu::CommandEncoder {
+    gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("hemicubes") })
 }
 
 fn extent() -> wgpu::Extent3d {

@@ -1,23 +1,19 @@
 //! The scene as the item buffer draws it: input triangles in chunks, bisection trees, cut-outs.
 
 use std::collections::HashMap;
-use std::ops::Range;
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 use wgpu::util::DeviceExt;
 
-use super::chunks::{CHUNK, bounds_of, spatial_order};
-use super::faces::{Bounds, Frustum};
+use super::chunks::spatial_order;
+use super::culling::Culling;
 use crate::base::ids::{MaterialId, TriangleId};
 use crate::gpu::Gpu;
 use crate::patch::{Node, PatchMesh};
 use crate::scene::{AlphaMode, Scene, Wrap};
 
-/// Vertices a draw call: software drivers touch all of them again for every few clipped triangles.
-const MAX_VERTICES: u32 = 3 * 512;
-
-/// Buffers and chunk boxes of one scene.
+/// Buffers of one scene.
 pub(super) struct Geometry {
     pub vertices: wgpu::Buffer,
     pub triangles: wgpu::Buffer,
@@ -25,18 +21,15 @@ pub(super) struct Geometry {
     pub cutouts: wgpu::Buffer,
     pub alphas: wgpu::Buffer,
     pub has_cutouts: bool,
-    /// Whether faces leave out what they cannot see.
-    pub is_culled: bool,
-    chunks: Vec<Bounds>,
-    num_triangles: u32,
+    /// What faces leave out; without it they draw everything.
+    pub culling: Option<Culling>,
+    pub num_vertices: u32,
 }
 
 impl Geometry {
     pub(super) fn new(gpu: &Gpu, scene: &Scene, mesh: &PatchMesh) -> Self {
         let order = spatial_order(scene);
-        let corners = |t: &TriangleId| scene.corners(*t);
         let vertices: Vec<gpu_data::Vertex> = order.iter().flat_map(|&t| vertices_of(scene, mesh, t)).collect();
-        let chunks = order.chunks(CHUNK).map(|chunk| bounds_of(chunk.iter().flat_map(corners))).collect();
         let mut cutouts = Cutouts::default();
         let triangles: Vec<gpu_data::Triangle> = order.iter().map(|&t| cutouts.describe_triangle(scene, t)).collect();
         let has_cutouts = !cutouts.records.is_empty();
@@ -54,37 +47,8 @@ impl Geometry {
             cutouts: buffer("hemicube cut-outs", bytemuck::cast_slice(&cutouts.records)),
             alphas: buffer("hemicube alphas", &cutouts.alphas),
             has_cutouts,
-            is_culled: true,
-            chunks,
-            num_triangles: order.len() as u32,
-        }
-    }
-
-    /// Ranges of vertices whose triangles `frustum` may see from `eye`, a few neighbouring chunks in one, the nearest first:
-    /// what lies behind them is not shaded.
-    pub(super) fn visible_vertices(&self, frustum: &Frustum, eye: Vec3, ranges: &mut Vec<(f32, Range<u32>)>) {
-        ranges.clear();
-        if self.chunks.len() == 1 {
-            ranges.push((0.0, 0..3 * self.num_triangles));
-            return;
-        }
-        for (i, bounds) in self.chunks.iter().enumerate() {
-            if self.is_culled && !frustum.meets(bounds) {
-                continue;
-            }
-            let first = (i * CHUNK) as u32;
-            let end = (first + CHUNK as u32).min(self.num_triangles);
-            let distance = eye.distance_squared(eye.clamp(bounds.low, bounds.high));
-            match ranges.last_mut() {
-                Some((nearest, range)) if range.end == 3 * first && 3 * end - range.start <= MAX_VERTICES => {
-                    range.end = 3 * end;
-                    *nearest = nearest.min(distance);
-                }
-                _ => ranges.push((distance, 3 * first..3 * end)),
-            }
-        }
-        if self.is_culled {
-            ranges.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.start.cmp(&b.1.start)));
+            culling: Some(Culling::new(scene, &order)),
+            num_vertices: vertices.len() as u32,
         }
     }
 }

@@ -8,9 +8,11 @@
 
 mod atlas;
 mod chunks;
+mod culling;
 mod delta;
 mod faces;
 mod geometry;
+mod indices;
 mod row;
 
 use std::collections::VecDeque;
@@ -26,7 +28,7 @@ use crate::scene::Scene;
 
 pub use delta::delta_form_factors;
 
-/// Atlases in flight: one drawn, one read, one in reserve.
+/// One atlas is summed while one is drawn and one waits for its turn.
 const NUM_ATLASES: usize = 3;
 
 /// Sizes a hemicube may have, pixels.
@@ -62,7 +64,7 @@ impl<'a> Hemicubes<'a> {
     /// Draws every triangle to every face: what culling is measured against.
     #[must_use]
     pub fn without_culling(mut self) -> Self {
-        self.geometry.is_culled = false;
+        self.geometry.culling = None;
         self
     }
 
@@ -104,25 +106,31 @@ impl<'a> Hemicubes<'a> {
         finish: impl Fn(&[u32], usize, usize),
     ) -> Result<usize, FormFactorError> {
         let mut in_flight = VecDeque::new();
+        let mut drawn: Option<(usize, usize)> = None;
         let mut done = 0;
         let mut batches = viewpoints.chunks(self.layout.capacity()).zip((0..NUM_ATLASES).cycle());
         loop {
             while in_flight.len() < NUM_ATLASES - 1 && go_on() {
                 let Some((batch, slot)) = batches.next() else { break };
-                let atlas = &self.atlases[slot];
+                let atlas = &mut self.atlases[slot];
                 let submission = atlas.submit(self.gpu, &self.pipeline, &self.geometry, self.layout, batch, self.near);
                 in_flight.push_back((submission, slot, batch.len()));
+            }
+            // Sums while the others are drawn.
+            if let Some((slot, count)) = drawn.take() {
+                let atlas = &self.atlases[slot];
+                let items = atlas.items().map_err(|error| GpuError::Lost(error.to_string()))?;
+                finish(bytemuck::cast_slice(&items), done, count);
+                drop(items);
+                atlas.release();
+                done += count;
             }
             let Some((submission, slot, count)) = in_flight.pop_front() else {
                 return Ok(done);
             };
             let wait = wgpu::PollType::Wait { submission_index: Some(submission), timeout: None };
             self.gpu.device.poll(wait).map_err(|error| GpuError::Lost(error.to_string()))?;
-            let items = self.atlases[slot].items().map_err(|error| GpuError::Lost(error.to_string()))?;
-            finish(bytemuck::cast_slice(&items), done, count);
-            drop(items);
-            self.atlases[slot].release();
-            done += count;
+            drawn = Some((slot, count));
         }
     }
 }

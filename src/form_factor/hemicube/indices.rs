@@ -1,0 +1,67 @@
+//! The triangles that faces draw, as lists of indices on the device.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use super::atlas::Face;
+use super::culling::Culling;
+use crate::gpu::Gpu;
+
+/// Indices drawn at once: what bounds the memory of lists, but for those of [`FACES_AT_ONCE`].
+const MAX_INDICES: usize = 1 << 22;
+
+/// Faces culled in parallel.
+const FACES_AT_ONCE: usize = 64;
+
+/// The lists of as many faces as fit, the first one at least.
+pub(super) fn lists_of(culling: &Culling, faces: &[Face]) -> Vec<Vec<u32>> {
+    let (mut lists, mut num_indices) = (Vec::with_capacity(faces.len()), 0);
+    for some in faces.chunks(FACES_AT_ONCE) {
+        if num_indices > MAX_INDICES {
+            break;
+        }
+        let list_of = |face: &Face| culling.indices(&face.clip_from_world, face.eye, face.size());
+        let next: Vec<Vec<u32>> = some.par_iter().map(list_of).collect();
+        num_indices += next.iter().map(Vec::len).sum::<usize>();
+        lists.extend(next);
+    }
+    lists
+}
+
+/// An index buffer that grows with what is written.
+pub(super) struct Indices {
+    pub buffer: wgpu::Buffer,
+}
+
+impl Indices {
+    pub(super) fn new(gpu: &Gpu) -> Self {
+        Self { buffer: new_buffer(gpu, 4096) }
+    }
+
+    /// Writes the lists one behind the other; returns where each lies.
+    pub(super) fn write(&mut self, gpu: &Gpu, lists: &[Vec<u32>]) -> Vec<Range<u32>> {
+        let num_indices: usize = lists.iter().map(Vec::len).sum();
+        let num_bytes = (num_indices * size_of::<u32>()) as u64;
+        if num_bytes > self.buffer.size() {
+            self.buffer = new_buffer(gpu, num_bytes.next_power_of_two());
+        }
+        gpu.queue.write_buffer(&self.buffer, 0, bytemuck::cast_slice(&lists.concat()));
+        let mut end = 0;
+        let range_of = |list: &Vec<u32>| {
+            let first = end;
+            end += list.len() as u32;
+            first..end
+        };
+        lists.iter().map(range_of).collect()
+    }
+}
+
+fn new_buffer(gpu: &Gpu, size: u64) -> wgpu::Buffer {
+    gpu.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("hemicube indices"),
+        size,
+        usage: wgpu::BufferUsages::INDEX | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
+}
