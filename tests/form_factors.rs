@@ -1,7 +1,7 @@
 //! Rows of form factors over random rooms: what must hold for any method, and that the methods agree.
 
 use glam::Vec3;
-use hemicube::form_factor::hemicube::Hemicubes;
+use hemicube::form_factor::hemicube::{Hemicubes, size_for_patches};
 use hemicube::form_factor::hemisphere::Hemispheres;
 use hemicube::form_factor::pair::PolygonPair;
 use hemicube::form_factor::polygon::Polygon;
@@ -87,6 +87,40 @@ fn what_hemicubes_leave_out_is_never_seen() {
         for viewpoint in sites.iter().step_by(sites.len() / 12) {
             let (some, all) = (culled.elements_seen(viewpoint).unwrap(), whole.elements_seen(viewpoint).unwrap());
             assert!(some == all, "{size_px} px: {viewpoint:?}");
+        }
+    }
+}
+
+/// Mean over the viewpoints of what two methods tell differently of the patches, as a share of the whole view.
+fn disagreement(one: &[Row], other: &[Row], mesh: &PatchMesh) -> f32 {
+    let by_patch = |row: &Row| {
+        let mut shares = vec![0.0; mesh.patches.len()];
+        for entry in &row.entries {
+            shares[mesh.elements[entry.element.index()].patch.index()] += entry.factor;
+        }
+        shares
+    };
+    let differing = |(a, b): (&Row, &Row)| -> f32 {
+        by_patch(a).iter().zip(by_patch(b)).map(|(a, b)| (a - b).abs()).sum::<f32>() / 2.0
+    };
+    one.iter().zip(other).map(differing).sum::<f32>() / one.len() as f32
+}
+
+#[test]
+fn hemicubes_as_fine_as_patches_ask_for_see_them_well() {
+    let Some(gpu) = gpu() else { return };
+    for (seed, patch_size) in [(1, 0.5), (2, 1.0), (3, 2.0)] {
+        let scene = scenes::cluttered_room(seed);
+        let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: patch_size / 4.0, patch_size }).unwrap();
+        let sites = Sites::new(&scene).of_light_vertices(&mesh);
+        let viewpoints: Vec<Viewpoint> = sites.iter().step_by(sites.len() / 40).copied().collect();
+        let rows_at = |size_px| rows(&mut Hemicubes::new(gpu, &scene, &mesh, size_px), &viewpoints);
+        let (size_px, fine) = (size_for_patches(&scene, &mesh), rows_at(512));
+        let error = disagreement(&rows_at(size_px), &fine, &mesh);
+        assert!(error < 0.08, "{size_px} px, patches of {patch_size} m: {error}");
+        if patch_size < 1.0 {
+            let error = disagreement(&rows_at(size_px / 2), &fine, &mesh);
+            assert!(error > 0.08, "{} px would do: {error}", size_px / 2);
         }
     }
 }

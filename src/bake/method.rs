@@ -1,9 +1,9 @@
 //! Which way of finding form factors suits a scene and a device.
 
 use super::BakeError;
-use super::settings::{BakeSettings, SHOOTING_PX, SHOOTING_RAYS};
+use super::settings::{BakeSettings, SHOOTING_RAYS};
 use crate::form_factor::FormFactors;
-use crate::form_factor::hemicube::Hemicubes;
+use crate::form_factor::hemicube::{Hemicubes, size_for_patches};
 use crate::form_factor::hemisphere::Hemispheres;
 use crate::form_factor::row_cache::{CachedRows, RowCache};
 use crate::gpu::Gpu;
@@ -61,7 +61,7 @@ impl<'a> Seer<'a> {
 
     /// Coarse form factors: shooters see patches, not detail.
     pub(super) fn shooting(self) -> Box<dyn FormFactors + 'a> {
-        self.with(SHOOTING_PX, SHOOTING_RAYS)
+        self.with(size_for_patches(self.tracer.scene(), self.mesh), SHOOTING_RAYS)
     }
 
     /// Form factors for the light that is shown.

@@ -76,9 +76,6 @@ pub struct BakeSettings {
     pub num_penumbra_rays: u32,
 }
 
-/// Width of the hemicubes that shoot: they see patches, not detail.
-pub(super) const SHOOTING_PX: u32 = 64;
-
 /// Rays a point and emitter in penumbrae where only the mean over a patch counts.
 pub(super) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 64;
 

@@ -13,6 +13,7 @@ mod delta;
 mod faces;
 mod geometry;
 mod indices;
+mod resolution;
 mod row;
 
 use std::collections::VecDeque;
@@ -27,6 +28,7 @@ use crate::patch::PatchMesh;
 use crate::scene::Scene;
 
 pub use delta::delta_form_factors;
+pub use resolution::size_for_patches;
 
 /// One atlas is summed while one is drawn and one waits for its turn.
 const NUM_ATLASES: usize = 3;

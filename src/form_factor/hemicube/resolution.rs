@@ -1,0 +1,60 @@
+//! How many pixels hemicubes need to see patches.
+//!
+//! Source: Baum, Rushmeier, Winget 1989, "Improving radiosity solutions through the use of analytically determined
+//! form-factors" (the aliasing assumption).
+
+use crate::patch::PatchMesh;
+use crate::scene::Scene;
+
+/// Pixels across a patch that faces the middle of a face.
+const PIXELS_A_PATCH: f32 = 1.5;
+
+/// Share of the area that may lie in patches smaller than those looked at.
+const SHARE_OF_SMALL_ONES: f32 = 0.1;
+
+/// The coarsest and the finest hemicubes that are worth their time.
+const USUAL_SIZES: [u32; 2] = [32, 256];
+
+/// Width of hemicubes, pixels, in which patches half across the scene span a pixel and a half, whatever is smaller left
+/// aside: the nearest power of two.
+#[must_use]
+pub fn size_for_patches(scene: &Scene, mesh: &PatchMesh) -> u32 {
+    let (low, high) = scene.bounds();
+    let distance = low.distance(high) / 2.0;
+    // A face is two wide at distance one.
+    let pixels = 2.0 * PIXELS_A_PATCH * distance / typical_area(mesh).sqrt();
+    let [fewest, most] = USUAL_SIZES;
+    fewest << (pixels / fewest as f32).log2().round().clamp(0.0, (most / fewest).ilog2() as f32) as u32
+}
+
+/// The area of a patch that only a small share of all area lies in smaller ones of.
+fn typical_area(mesh: &PatchMesh) -> f32 {
+    let mut areas: Vec<f32> = mesh.patches.iter().map(|patch| patch.area).collect();
+    areas.sort_unstable_by(f32::total_cmp);
+    let small = SHARE_OF_SMALL_ONES * areas.iter().sum::<f32>();
+    let mut sum = 0.0;
+    let typical = areas.iter().find(|&&area| {
+        sum += area;
+        sum > small
+    });
+    typical.copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::patch::MeshSettings;
+    use crate::scene::builtin;
+
+    fn size(scene: &Scene, patch_size: f32) -> u32 {
+        let mesh = PatchMesh::new(scene, &MeshSettings { element_size: patch_size / 4.0, patch_size }).expect("a mesh");
+        size_for_patches(scene, &mesh)
+    }
+
+    #[test]
+    fn small_patches_take_more_pixels() {
+        let scene = builtin::cornell();
+        let sizes = [1.6, 0.4, 0.1].map(|patch_size| size(&scene, patch_size));
+        assert_eq!(sizes, [32, 64, 128]);
+    }
+}
