@@ -4,7 +4,7 @@
 //! pixel and emissive surface, the first camera; the best of a few frames counts, the first is not among them.
 //!
 //! The last two lines are to stand beside other viewers: the stored light alone, and with one spot light under the middle of the
-//! ceiling in place of the scene's own, which throws its shadow by one map of 2048 texels.
+//! ceiling in place of the scene's own, which throws its shadow by one map of 2048 texels (kept while nothing moves).
 
 use std::f32::consts::FRAC_PI_3;
 use std::path::PathBuf;

@@ -86,7 +86,7 @@ fn is_stopped(first: u32, origin: vec3f, to_light: vec3f) -> bool {
     let q = cross(from_corner, edge_1);
     let v = dot(to_light, q) / determinant;
     let distance = dot(edge_2, q) / determinant;
-    let is_beyond_light = light.place.w > 0.0 && distance >= 1.0;
+    let is_beyond_light = (light.place.w > 0.0) & (distance >= 1.0);
     if u < -OVERLAP || v < -OVERLAP || u + v > 1.0 + OVERLAP || distance < 0.0 || is_beyond_light {
         return false;
     }

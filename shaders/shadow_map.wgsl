@@ -4,7 +4,7 @@ struct MapFace {
     projection_from_world: mat4x4f,
 }
 
-@group(1) @binding(0) var<storage, read> map_face: MapFace;
+@group(1) @binding(0) var<uniform> map_face: MapFace;
 
 struct Vertex {
     @location(0) position: vec3f,

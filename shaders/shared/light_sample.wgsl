@@ -1,12 +1,6 @@
 // One light sample and the irradiance that it brings where nothing stands between. Written by
 // src/render/shadow/light_samples.rs, whose formulas are the same.
 
-const LIGHT_POINT: u32 = 0u;
-const LIGHT_SPOT: u32 = 1u;
-const LIGHT_DIRECTIONAL: u32 = 2u;
-// A point of an emissive surface: it shines as the cosine to the normal, on one side.
-const LIGHT_SURFACE: u32 = 3u;
-
 // Light that grazes a surface more than this brings nothing worth a decision.
 const GRAZING_COSINE: f32 = 1e-4;
 const SHORTEST_SQUARE: f32 = 1e-12;
@@ -16,18 +10,20 @@ struct LightSample {
     place: vec4f,
     // Unit axis of a spot or normal of a surface.
     axis: vec3f,
-    kind: u32,
+    // 1 for a point of an emissive surface, which shines as the cosine to the normal, on one side.
+    is_surface: f32,
     // Candela per channel, for a directional light lux; dimmed with its group.
     intensity: vec3f,
-    // Metres; 0 means without end.
-    range: f32,
-    // share = (cosine to the axis x scale + offset), clamped and squared.
+    // 1 over the square of metres; 0 means without end.
+    inverse_square_range: f32,
+    // share = (cosine to the axis x scale + offset), clamped and squared; 0 and 1 where there is no cone.
     cone_scale: f32,
     cone_offset: f32,
     padding: vec2f,
 }
 
-@group(1) @binding(0) var<storage, read> light: LightSample;
+// No branch depends on it, as shared/frame.wgsl explains.
+@group(1) @binding(0) var<uniform> light: LightSample;
 
 fn irradiance(point: vec3f, normal: vec3f) -> vec3f {
     let offset = light.place.xyz - light.place.w * point;
@@ -42,27 +38,12 @@ fn irradiance(point: vec3f, normal: vec3f) -> vec3f {
 
 fn emitted_share(to_light: vec3f) -> f32 {
     let cosine = dot(-to_light, light.axis);
-    switch light.kind {
-        case LIGHT_SPOT: {
-            let share = saturate(cosine * light.cone_scale + light.cone_offset);
-            return share * share;
-        }
-        case LIGHT_SURFACE: {
-            return select(0.0, cosine, cosine > GRAZING_COSINE);
-        }
-        default: {
-            return 1.0;
-        }
-    }
+    let in_cone = saturate(cosine * light.cone_scale + light.cone_offset);
+    let from_surface = select(0.0, cosine, cosine > GRAZING_COSINE);
+    return select(in_cone * in_cone, from_surface, light.is_surface > 0.0);
 }
 
 fn falloff(square: f32) -> f32 {
-    if light.kind == LIGHT_DIRECTIONAL {
-        return 1.0;
-    }
-    if light.range <= 0.0 {
-        return 1.0 / square;
-    }
-    let share = square / (light.range * light.range);
-    return saturate(1.0 - share * share) / square;
+    let share = square * light.inverse_square_range;
+    return select(1.0, saturate(1.0 - share * share) / square, light.place.w > 0.0);
 }

@@ -1,26 +1,30 @@
 // What the shadow map sees is lit. Written by src/render/shadow/map_projection.rs.
 
 struct ShadowMap {
-    // One for a spot or a directional light; six for a point, in the order +X -X +Y -Y +Z -Z.
-    projection_from_world: array<mat4x4f, 6>,
-    num_faces: u32,
+    // Of a spot or a directional light.
+    projection_from_world: mat4x4f,
+    // The same for planes.
+    plane_from_world: mat4x4f,
+    // Of the faces of a point's cube: half width and near plane at one metre from the light.
+    half_width: f32,
+    near: f32,
     // Width of a texel, metres; for perspective maps at one metre from the light.
     texel: f32,
     // Shift of a point along its normal, texels.
     normal_offset: f32,
     // Shift towards the light: as deep as the surface falls over so many texels.
     slope_bias: f32,
-    // Texels each way over which shadows are softened.
-    pcf_radius: i32,
-    padding: vec3u,
+    padding: vec3f,
 }
 
-@group(2) @binding(0) var<storage, read> shadow_map: ShadowMap;
+// The map has six faces round a point, in the order +X -X +Y -Y +Z -Z; else one for a spot or a directional light.
+override IS_CUBE: bool = false;
+// Texels each way over which shadows are softened.
+override PCF_RADIUS: i32 = 1;
+
+@group(2) @binding(0) var<uniform> shadow_map: ShadowMap;
 @group(2) @binding(1) var map_depth: texture_depth_2d_array;
 @group(2) @binding(2) var map_sampler: sampler_comparison;
-
-// A surface seen edge on from the light has no slope to speak of.
-const SMALLEST_AREA: f32 = 1e-12;
 
 fn visibility(point: vec3f, facet: vec3f) -> f32 {
     let offset = light.place.xyz - light.place.w * point;
@@ -35,45 +39,81 @@ fn visibility(point: vec3f, facet: vec3f) -> f32 {
     // Away from the surface, the more the flatter the light falls on it.
     let slope = sqrt(saturate(1.0 - cosine * cosine));
     let shifted = point + texel * shadow_map.normal_offset * slope * facet;
-    let face = select(0u, cube_face(shifted - light.place.xyz), shadow_map.num_faces == 6u);
-    let seen = in_map(face, shifted);
-    return lit_share(seen, face, depth_slope(face, shifted, seen, facet, texel));
-}
-
-// Place in the map: -1..1 across and up, and depth.
-fn in_map(face: u32, point: vec3f) -> vec3f {
-    let clip = shadow_map.projection_from_world[face] * vec4f(point, 1.0);
-    return clip.xyz / clip.w;
-}
-
-// Change of depth across and up the map along the plane of the surface; depth is linear there.
-fn depth_slope(face: u32, point: vec3f, seen: vec3f, facet: vec3f, texel: f32) -> vec2f {
-    let across = normalize(cross(facet, select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(facet.x) > 0.7)));
-    let a = in_map(face, point + texel * across) - seen;
-    let b = in_map(face, point + texel * cross(facet, across)) - seen;
-    let determinant = a.x * b.y - a.y * b.x;
-    if abs(determinant) < SMALLEST_AREA {
-        return vec2f(0.0);
+    if IS_CUBE {
+        return lit_share(in_cube(shifted - light.place.xyz, facet));
     }
-    return vec2f(b.y * a.z - a.y * b.z, a.x * b.z - b.x * a.z) / determinant;
+    return lit_share(in_map(shifted, facet));
 }
 
-// Mean over the texels round `seen`, each compared with the depth of the surface there; each comparison is interpolated
+// A point of a surface in the map.
+struct MapPoint {
+    face: u32,
+    // -1..1 across and up, and depth.
+    place: vec3f,
+    // Change of depth across and up the map along the surface, which is a plane in the map, too.
+    slope: vec2f,
+}
+
+fn in_map(point: vec3f, facet: vec3f) -> MapPoint {
+    let clip = shadow_map.projection_from_world * vec4f(point, 1.0);
+    let plane = shadow_map.plane_from_world * vec4f(facet, -dot(facet, point));
+    return MapPoint(0u, clip.xyz / clip.w, flat(-plane.xy / plane.z, plane.z));
+}
+
+// The faces of the cube lie along the axes: to look through one is to change the order and signs of coordinates.
+fn in_cube(from_light: vec3f, facet: vec3f) -> MapPoint {
+    let face = cube_face(from_light);
+    let seen = on_face(face, from_light);
+    let normal = on_face(face, facet);
+    let distance = dot(normal, seen);
+    let place = vec3f(seen.xy / (seen.z * shadow_map.half_width), shadow_map.near / seen.z);
+    return MapPoint(face, place, flat(normal.xy * (shadow_map.near * shadow_map.half_width / distance), distance));
+}
+
+// A surface seen edge on from the light has no slope to speak of.
+fn flat(slope: vec2f, divisor: f32) -> vec2f {
+    return select(slope, vec2f(0.0), divisor == 0.0);
+}
+
+// Mean over the texels round a point, each compared with the depth of the surface there; each comparison is interpolated
 // between four, whose spread the bias covers.
-fn lit_share(seen: vec3f, face: u32, slope: vec2f) -> f32 {
-    let step = 2.0 / vec2f(textureDimensions(map_depth));
-    let bias = shadow_map.slope_bias * dot(abs(slope), step);
-    let radius = shadow_map.pcf_radius;
+//
+// Of the texels in a row, the first and the last count by the share that the window covers of them. Two neighbours are
+// one interpolated comparison, at the place where interpolation weighs them so.
+fn lit_share(at: MapPoint) -> f32 {
+    let size = vec2f(textureDimensions(map_depth));
+    let bias = shadow_map.slope_bias * dot(abs(at.slope), 2.0 / size);
+    // In texels, whose middles are whole numbers here.
+    let middle = (vec2f(0.5, 0.5) + vec2f(0.5, -0.5) * at.place.xy) * size - 0.5;
+    let first = floor(middle) - f32(PCF_RADIUS);
+    let share = middle - floor(middle);
     var sum = 0.0;
-    for (var y = -radius; y <= radius; y++) {
-        for (var x = -radius; x <= radius; x++) {
-            let shift = vec2f(f32(x), f32(y)) * step;
-            let uv = vec2f(0.5, 0.5) + vec2f(0.5, -0.5) * (seen.xy + shift);
-            sum += textureSampleCompareLevel(map_depth, map_sampler, uv, face, seen.z + dot(slope, shift) + bias);
+    for (var y = 0; y <= PCF_RADIUS; y++) {
+        let row = pair(y, share.y);
+        for (var x = 0; x <= PCF_RADIUS; x++) {
+            let column = pair(x, share.x);
+            let texel = first + vec2f(column.place, row.place);
+            let shift = (texel - middle) * vec2f(2.0, -2.0) / size;
+            let depth = at.place.z + dot(at.slope, shift) + bias;
+            let lit = textureSampleCompareLevel(map_depth, map_sampler, (texel + 0.5) / size, at.face, depth);
+            sum += lit * column.weight * row.weight;
         }
     }
-    let width = f32(2 * radius + 1);
+    let width = f32(2 * PCF_RADIUS + 1);
     return sum / (width * width);
+}
+
+// Two neighbouring texels of a row as one: where between them, in texels from the first of the row, and their weight.
+struct Pair {
+    place: f32,
+    weight: f32,
+}
+
+fn pair(index: i32, share: f32) -> Pair {
+    let before = select(1.0, 1.0 - share, index == 0);
+    let after = select(1.0, share, index == PCF_RADIUS);
+    let weight = before + after;
+    return Pair(f32(2 * index) + after / weight, weight);
 }
 
 fn cube_face(direction: vec3f) -> u32 {
@@ -85,4 +125,13 @@ fn cube_face(direction: vec3f) -> u32 {
         return select(2u, 3u, direction.y < 0.0);
     }
     return select(4u, 5u, direction.z < 0.0);
+}
+
+// Right, up and ahead as the camera of a face looks.
+fn on_face(face: u32, v: vec3f) -> vec3f {
+    let s = select(1.0, -1.0, (face & 1u) == 1u);
+    let along_x = vec3f(s * v.z, v.y, s * v.x);
+    let along_y = vec3f(s * v.x, v.z, s * v.y);
+    let along_z = vec3f(-s * v.x, v.y, s * v.z);
+    return select(select(along_z, along_y, face < 4u), along_x, face < 2u);
 }

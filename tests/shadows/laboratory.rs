@@ -7,7 +7,7 @@ use hemicube::base::ids::{GroupId, InstanceId, TriangleId};
 use hemicube::gpu::{Gpu, Stopwatch};
 use hemicube::render::shadow::{Batch, KnownFault, known_fault, num_batches};
 use hemicube::render::{Exposure, Look, Renderer, ShadowSettings, ShadowTechnique, View};
-use hemicube::scene::{Instance, Material};
+use hemicube::scene::{Instance, Light, LightKind, Material};
 
 use super::stage::{SIZE, Shot, Stage, at, paint, settings};
 use crate::support::device::gpu;
@@ -83,6 +83,37 @@ fn light_that_is_added_up_in_parts_is_the_light_of_all_points_at_once() {
         let whole = easel.display(gpu);
         let largest = added.iter().zip(&whole).map(|(a, b)| a.abs_diff(*b)).max();
         assert!(largest <= Some(1), "{technique:?}: {largest:?} steps of 255");
+    }
+}
+
+#[test]
+fn maps_that_are_kept_show_what_new_ones_would() {
+    let Some(gpu) = gpu() else { return };
+    // More faces than are kept, so that some make room for others.
+    let lit_by_three = |height: f32| {
+        let mut stage = Stage::new();
+        stage.cube(at(0.0, height, 0.0), 0);
+        for x in [-2.0, 2.0] {
+            let kind = LightKind::Point { position: Vec3::new(x, 3.5, 0.0) };
+            let lamp = Light { kind, ..stage.scene.lights[0].clone() };
+            stage.scene.lights.push(lamp);
+        }
+        stage.shot(gpu)
+    };
+    let map = settings(ShadowTechnique::Map);
+    let anew = |shot: &Shot| {
+        let mut easel = Easel::new(gpu, shot);
+        easel.add(gpu, shot, &map, false);
+        easel.display(gpu)
+    };
+    let shots = [1.0, 1.8].map(lit_by_three);
+    let pictures = shots.each_ref().map(anew);
+    assert!(pictures[0] != pictures[1]);
+    let mut easel = Easel::new(gpu, &shots[0]);
+    for turn in [0, 0, 1, 1, 0] {
+        easel.renderer.cast_shadows(Some(Arc::clone(&shots[turn].shadows)));
+        easel.add(gpu, &shots[turn], &map, false);
+        assert!(easel.display(gpu) == pictures[turn], "scene {turn}");
     }
 }
 

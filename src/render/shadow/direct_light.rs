@@ -30,11 +30,11 @@ pub struct DirectLightPass {
 }
 
 impl DirectLightPass {
-    /// Pipelines for targets with `samples` samples a pixel, with a shader that tells `visibility` its own way.
+    /// Pipelines for targets with `samples` samples a pixel, with a shader that tells `visibility` its own way, and its constants.
     pub fn new(
         gpu: &Gpu,
         layouts: &[Option<&wgpu::BindGroupLayout>],
-        shader: &shaders::Shader,
+        (shader, constants): (&shaders::Shader, &[(&str, f64)]),
         samples: u32,
         lit: &Lit,
     ) -> Self {
@@ -44,7 +44,7 @@ impl DirectLightPass {
             bind_group_layouts: layouts,
             immediate_size: 0,
         });
-        let pipelines = SolidPipelines::new(|cull| pipeline(gpu, &layout, &module, samples, lit, cull));
+        let pipelines = SolidPipelines::new(|cull| pipeline(gpu, (&layout, &module, constants), samples, lit, cull));
         Self { pipelines, reference: lit.reference }
     }
 
@@ -103,8 +103,7 @@ pub fn begin<'e>(encoder: &'e mut wgpu::CommandEncoder, targets: &LightTargets) 
 
 fn pipeline(
     gpu: &Gpu,
-    layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
+    (layout, module, constants): (&wgpu::PipelineLayout, &wgpu::ShaderModule, &[(&str, f64)]),
     samples: u32,
     lit: &Lit,
     cull_mode: Option<wgpu::Face>,
@@ -128,6 +127,7 @@ fn pipeline(
         write_mask: wgpu::ColorWrites::ALL,
     };
     PipelineRecipe {
+        constants,
         fragment: Some(("fragment", &[Some(target)])),
         primitive: culling(cull_mode),
         depth_stencil: Some(against_depth(gpu, wgpu::CompareFunction::Equal, stencil, Default::default())),

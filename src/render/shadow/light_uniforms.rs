@@ -20,9 +20,9 @@ const NARROWEST_RIM: f32 = 1e-3;
 struct LightUniform {
     place: Vec4,
     axis: Vec3,
-    kind: u32,
+    is_surface: f32,
     intensity: Vec3,
-    range: f32,
+    inverse_square_range: f32,
     cone_scale: f32,
     cone_offset: f32,
     padding: Vec2,
@@ -30,22 +30,23 @@ struct LightUniform {
 
 impl LightUniform {
     fn new(sample: &LightSample, look: &Look) -> Self {
-        let (kind, axis, cone) = match (sample.surface_normal, sample.light.kind) {
-            (Some(normal), _) => (3, normal, [0.0; 2]),
-            (None, LightKind::Point { .. }) => (0, Vec3::ZERO, [0.0; 2]),
-            (None, LightKind::Directional { direction }) => (2, direction, [0.0; 2]),
+        const NO_CONE: [f32; 2] = [0.0, 1.0];
+        let (axis, cone) = match (sample.surface_normal, sample.light.kind) {
+            (Some(normal), _) => (normal, NO_CONE),
+            (None, LightKind::Point { .. }) => (Vec3::ZERO, NO_CONE),
+            (None, LightKind::Directional { direction }) => (direction, NO_CONE),
             (None, LightKind::Spot { direction, inner_angle, outer_angle, .. }) => {
                 let cos_outer = outer_angle.cos();
                 let scale = 1.0 / (inner_angle.cos() - cos_outer).max(NARROWEST_RIM);
-                (1, direction, [scale, -cos_outer * scale])
+                (direction, [scale, -cos_outer * scale])
             }
         };
         Self {
             place: sample.place(),
             axis,
-            kind,
+            is_surface: f32::from(u8::from(sample.surface_normal.is_some())),
             intensity: sample.light.intensity * look.group_weight(sample.light.group),
-            range: sample.light.range.unwrap_or(0.0),
+            inverse_square_range: sample.light.range.map_or(0.0, |range| 1.0 / (range * range)),
             cone_scale: cone[0],
             cone_offset: cone[1],
             padding: Vec2::ZERO,
@@ -61,7 +62,7 @@ pub fn light_sample_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
             binding: 0,
             visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
             ty: wgpu::BindingType::Buffer {
-                ty: wgpu::BufferBindingType::Storage { read_only: true },
+                ty: wgpu::BufferBindingType::Uniform,
                 has_dynamic_offset: true,
                 min_binding_size: None,
             },
@@ -85,7 +86,7 @@ impl LightUniforms {
         let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("light samples"),
             contents: &bytes,
-            usage: wgpu::BufferUsages::STORAGE,
+            usage: wgpu::BufferUsages::UNIFORM,
         });
         let binding = wgpu::BufferBinding {
             buffer: &buffer,
@@ -117,7 +118,8 @@ mod tests {
         macro_rules! offsets {
             ($($field:ident),+) => { vec![$(offset_of!(LightUniform, $field)),+, size_of::<LightUniform>()] };
         }
-        let written = offsets![place, axis, kind, intensity, range, cone_scale, cone_offset, padding];
+        let written =
+            offsets![place, axis, is_surface, intensity, inverse_square_range, cone_scale, cone_offset, padding];
         assert_eq!(written, struct_layout(&DIRECT_LIGHT, "LightSample"));
     }
 }

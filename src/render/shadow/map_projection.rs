@@ -30,29 +30,36 @@ const WIDEST_SPOT: f32 = 1.2;
 /// Texels beyond the edge of a face for interpolation.
 const BORDER: f32 = 2.0;
 
+/// What the map of a light sample shows of a scene.
+pub struct MapProjection {
+    /// Of each face: one, or six of a cube.
+    pub projection_from_world: Vec<Mat4>,
+    /// What the pass that reads the map needs of them.
+    pub uniform: MapUniform,
+}
+
 /// `ShadowMap` of shaders/shared/visibility_map.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct MapUniform {
-    /// Of each face.
-    pub projection_from_world: [Mat4; 6],
-    /// 1 or 6.
-    pub num_faces: u32,
+    projection_from_world: Mat4,
+    plane_from_world: Mat4,
+    half_width: f32,
+    near: f32,
     texel: f32,
     normal_offset: f32,
     slope_bias: f32,
-    pcf_radius: i32,
     padding: [u32; 7],
 }
 
-impl MapUniform {
+impl MapProjection {
     /// What the map of a light sample shows of a scene.
     pub fn new(scene: &Scene, sample: &LightSample, settings: &MapSettings) -> Self {
         let (low, high) = scene.bounds();
         let near = NEAR * (high - low).max_element();
         let resolution = settings.resolution as f32;
         let border = BORDER + settings.pcf_radius as f32;
-        let (projections, half_width) = match sample.light.kind {
+        let (projection_from_world, half_width) = match sample.light.kind {
             LightKind::Directional { direction } => fitted((low, high), direction, resolution, border),
             LightKind::Spot { position, direction, outer_angle, .. } if outer_angle < WIDEST_SPOT => {
                 let half_width = outer_angle.tan() * resolution / (resolution - 2.0 * border);
@@ -65,17 +72,17 @@ impl MapUniform {
                 (FACES.map(face).to_vec(), half_width)
             }
         };
-        let mut projection_from_world = [Mat4::IDENTITY; 6];
-        projection_from_world[..projections.len()].copy_from_slice(&projections);
-        Self {
-            projection_from_world,
-            num_faces: projections.len() as u32,
+        let uniform = MapUniform {
+            projection_from_world: projection_from_world[0],
+            plane_from_world: projection_from_world[0].inverse().transpose(),
+            half_width,
+            near,
             texel: 2.0 * half_width / resolution,
             normal_offset: settings.normal_offset,
             slope_bias: settings.slope_bias,
-            pcf_radius: settings.pcf_radius as i32,
             padding: [0; 7],
-        }
+        };
+        Self { projection_from_world, uniform }
     }
 }
 
@@ -117,7 +124,7 @@ mod tests {
     fn the_uniform_is_as_long_as_the_shader_reads_it() {
         let layout = struct_layout(&DIRECT_LIGHT_MAP, "ShadowMap");
         assert_eq!(layout.last(), Some(&size_of::<MapUniform>()));
-        assert_eq!(layout[5], std::mem::offset_of!(MapUniform, pcf_radius));
+        assert_eq!(layout[6], std::mem::offset_of!(MapUniform, slope_bias));
     }
 
     #[test]

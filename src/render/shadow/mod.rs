@@ -25,6 +25,8 @@ pub mod flattening;
 mod known_fault;
 mod light_targets;
 mod light_uniforms;
+mod map_cache;
+mod map_light;
 mod map_pipelines;
 mod map_projection;
 mod near_plane;

@@ -6,8 +6,9 @@ use glam::Mat4;
 use wgpu::util::DeviceExt;
 
 use super::light_samples::LightSample;
-use super::map_pipelines::{DEPTH_FORMAT, face_layout, pipeline, read_layout};
-use super::map_projection::MapUniform;
+use super::map_cache::{MapCache, Shown};
+use super::map_pipelines::{face_layout, pipeline, read_layout};
+use super::map_projection::MapProjection;
 use super::real_time::Subject;
 use super::solid::bind_mesh;
 use crate::gpu::material_buffers::material_layout;
@@ -42,14 +43,7 @@ pub struct ShadowMapPass {
     face_layout: wgpu::BindGroupLayout,
     read_layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
-    map: Option<Map>,
-}
-
-/// The texture of all faces, used for one light after the other.
-struct Map {
-    resolution: u32,
-    faces: Vec<wgpu::TextureView>,
-    all: wgpu::TextureView,
+    cache: MapCache,
 }
 
 impl ShadowMapPass {
@@ -76,7 +70,7 @@ impl ShadowMapPass {
             read_layout: read_layout(gpu),
             face_layout,
             sampler,
-            map: None,
+            cache: MapCache::default(),
         }
     }
 
@@ -85,30 +79,31 @@ impl ShadowMapPass {
         &self.read_layout
     }
 
-    /// Makes room for maps of this resolution.
-    pub fn prepare(&mut self, gpu: &Gpu, settings: &MapSettings) {
-        if self.map.as_ref().is_none_or(|map| map.resolution != settings.resolution) {
-            self.map = Some(Map::new(gpu, settings.resolution));
-        }
+    /// Forgets the maps that it keeps from picture to picture.
+    pub fn forget(&mut self) {
+        self.cache.forget();
     }
 
-    /// Draws the map of a light sample and binds it for the pass that reads it; the number of its faces, and the binding.
+    /// Draws the map of a light sample, unless it is kept, and binds it for the pass that reads it; the number of its faces,
+    /// and the binding.
     pub fn draw(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         subject: Subject<'_>,
         sample: &LightSample,
         settings: &MapSettings,
     ) -> (u32, wgpu::BindGroup) {
-        let map = self.map.as_ref().expect("room for maps has been made");
-        let uniform = MapUniform::new(subject.shadows.scene(), sample, settings);
-        let faces = uniform.projection_from_world.iter().zip(&map.faces).take(uniform.num_faces as usize);
-        for (projection_from_world, face) in faces {
-            self.draw_face(gpu, encoder, subject, projection_from_world, face);
+        let projection = MapProjection::new(subject.shadows.scene(), sample, settings);
+        let shown = Shown::new(subject.scene, &projection.projection_from_world, settings.resolution);
+        let mut cache = std::mem::take(&mut self.cache);
+        let (map, is_new) = cache.map(gpu, shown);
+        if is_new {
+            for (projection_from_world, face) in projection.projection_from_world.iter().zip(&map.faces) {
+                self.draw_face(gpu, encoder, subject, projection_from_world, face);
+            }
         }
-        let num_faces = uniform.num_faces;
-        let uniform = uniform_buffer(gpu, bytemuck::bytes_of(&uniform));
+        let uniform = uniform_buffer(gpu, bytemuck::bytes_of(&projection.uniform));
         let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("shadow map"),
             layout: &self.read_layout,
@@ -118,7 +113,8 @@ impl ShadowMapPass {
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.sampler) },
             ],
         });
-        (num_faces, bindings)
+        self.cache = cache;
+        (projection.projection_from_world.len() as u32, bindings)
     }
 
     fn draw_face(
@@ -158,35 +154,7 @@ impl ShadowMapPass {
     }
 }
 
-impl Map {
-    fn new(gpu: &Gpu, resolution: u32) -> Self {
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("shadow map"),
-            size: wgpu::Extent3d { width: resolution, height: resolution, depth_or_array_layers: 6 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: DEPTH_FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
-        let view = |first, count| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(if count == 1 {
-                    wgpu::TextureViewDimension::D2
-                } else {
-                    wgpu::TextureViewDimension::D2Array
-                }),
-                base_array_layer: first,
-                array_layer_count: Some(count),
-                ..Default::default()
-            })
-        };
-        Self { resolution, faces: (0..6).map(|face| view(face, 1)).collect(), all: view(0, 6) }
-    }
-}
-
 fn uniform_buffer(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::STORAGE;
+    let usage = wgpu::BufferUsages::UNIFORM;
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("shadow map"), contents, usage })
 }

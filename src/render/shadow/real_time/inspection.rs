@@ -22,7 +22,6 @@ impl RealTimeLight {
         settings: &ShadowSettings,
         sample: &LightSample,
     ) -> (u32, wgpu::BindGroup) {
-        self.maps.prepare(gpu, &settings.maps);
         self.maps.draw(gpu, encoder, subject, sample, &settings.maps)
     }
 

@@ -14,6 +14,7 @@ use crate::render::shadow::direct_light::{self, DirectLightPass, Lit, WHERE_UNSH
 use crate::render::shadow::light_samples::LightSample;
 use crate::render::shadow::light_targets::LightTargets;
 use crate::render::shadow::light_uniforms::{LightUniforms, light_sample_layout};
+use crate::render::shadow::map_light::{MapKind, MapLight};
 use crate::render::shadow::planar_shadow::{ON_RECEIVER, PlanarShadowPass, SHADOWS};
 use crate::render::shadow::raytraced::RaytracedLight;
 use crate::render::shadow::shadow_map::ShadowMapPass;
@@ -71,7 +72,7 @@ pub struct RealTimeLight {
     prepass: DepthPrepass,
     unshadowed: DirectLightPass,
     maps: ShadowMapPass,
-    map_light: DirectLightPass,
+    map_light: MapLight,
     planar: PlanarShadowPass,
     planar_light: DirectLightPass,
     /// Takes light away where planar shadows overlap: the fault of darkening twice.
@@ -91,19 +92,17 @@ impl RealTimeLight {
         let sample_layout = light_sample_layout(gpu);
         let layouts = [Some(frame_layout), Some(&sample_layout)];
         let maps = ShadowMapPass::new(gpu);
-        let map_layouts = [Some(frame_layout), Some(&sample_layout), Some(maps.read_layout())];
-        let stencil_light = |lit: &Lit| DirectLightPass::new(gpu, &layouts, &shaders::DIRECT_LIGHT, samples, lit);
-        let light = |layouts, shader| DirectLightPass::new(gpu, layouts, shader, samples, &WHERE_UNSHADOWED);
+        let light = |lit: &Lit| DirectLightPass::new(gpu, &layouts, (&shaders::DIRECT_LIGHT, &[]), samples, lit);
         Self {
             samples,
             prepass: DepthPrepass::new(gpu, frame_layout, samples),
-            unshadowed: light(&layouts, &shaders::DIRECT_LIGHT),
-            map_light: light(&map_layouts, &shaders::DIRECT_LIGHT_MAP),
+            unshadowed: light(&WHERE_UNSHADOWED),
+            map_light: MapLight::new([frame_layout, &sample_layout, maps.read_layout()], samples),
             maps,
             planar: PlanarShadowPass::new(gpu, frame_layout, samples),
-            planar_light: stencil_light(&Lit { read_mask: SHADOWS, ..WHERE_UNSHADOWED }),
-            planar_twice: stencil_light(&PLANAR_TWICE),
-            on_receivers: stencil_light(&ON_RECEIVERS),
+            planar_light: light(&Lit { read_mask: SHADOWS, ..WHERE_UNSHADOWED }),
+            planar_twice: light(&PLANAR_TWICE),
+            on_receivers: light(&ON_RECEIVERS),
             volumes: ShadowVolumePass::new(gpu, frame_layout, &sample_layout, samples),
             cutouts: CutoutShadowPass::new(gpu, frame_layout, &sample_layout, samples),
             raytraced: RaytracedLight::new(gpu, frame_layout),
@@ -115,6 +114,7 @@ impl RealTimeLight {
     /// Forgets what it keeps from picture to picture: the next is of another scene.
     pub fn forget(&mut self) {
         self.volumes.forget();
+        self.maps.forget();
     }
 
     /// Records the direct light of a picture of `size` pixels: a texture of irradiance times pre-exposure, with as many
@@ -159,9 +159,6 @@ impl RealTimeLight {
 
     /// Does for all light samples what can be done before the first pass.
     fn prepare(&mut self, gpu: &Gpu, subject: Subject<'_>, samples: &[LightSample], settings: &ShadowSettings) {
-        if settings.technique == ShadowTechnique::Map {
-            self.maps.prepare(gpu, &settings.maps);
-        }
         if settings.technique == ShadowTechnique::Planar {
             self.planar.prepare(gpu, subject, &settings.planar);
         }
@@ -199,7 +196,7 @@ impl RealTimeLight {
     /// Adds one light sample where it is not in shadow.
     #[expect(clippy::too_many_arguments, reason = "where to draw, what of it and how")]
     fn add_sample(
-        &self,
+        &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         targets: &LightTargets,
@@ -212,30 +209,28 @@ impl RealTimeLight {
         subject.lap(encoder, "shadow stencil");
         // Light where there are none.
         let is_map = settings.technique == ShadowTechnique::Map;
-        let map = is_map.then(|| self.maps.draw(gpu, encoder, subject, sample, &settings.maps).1);
+        let map = is_map.then(|| self.maps.draw(gpu, encoder, subject, sample, &settings.maps));
+        let kind = |num_faces| MapKind { is_cube: num_faces == 6, pcf_radius: settings.maps.pcf_radius };
+        let map_pass = map.as_ref().map(|(num_faces, _)| self.map_light.pass(gpu, kind(*num_faces)));
         if is_map {
             subject.lap(encoder, "shadow maps");
         }
         let mut pass = direct_light::begin(encoder, targets);
         pass.set_bind_group(0, subject.frame, &[]);
         lights.bind(&mut pass, index);
-        if map.is_some() {
-            pass.set_bind_group(2, &map, &[]);
+        if let Some((_, bindings)) = &map {
+            pass.set_bind_group(2, bindings, &[]);
         }
-        self.light_of(settings.technique).draw(&mut pass, subject.scene, subject.look);
+        let light = map_pass.unwrap_or(match settings.technique {
+            ShadowTechnique::Planar => &self.planar_light,
+            _ => &self.unshadowed,
+        });
+        light.draw(&mut pass, subject.scene, subject.look);
         if settings.technique == ShadowTechnique::Planar && !settings.planar.darkens_once {
             self.planar_twice.draw(&mut pass, subject.scene, subject.look);
         }
         drop(pass);
         subject.lap(encoder, "direct light");
-    }
-
-    fn light_of(&self, technique: ShadowTechnique) -> &DirectLightPass {
-        match technique {
-            ShadowTechnique::Map => &self.map_light,
-            ShadowTechnique::Planar => &self.planar_light,
-            _ => &self.unshadowed,
-        }
     }
 }
 
