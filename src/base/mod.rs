@@ -1,5 +1,6 @@
 //! Floor 0: what every other floor speaks in. No scene, no GPU.
 
+pub mod bounds;
 pub mod colour;
 pub mod fingerprint;
 pub mod ids;

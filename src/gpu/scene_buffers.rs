@@ -11,10 +11,12 @@ use wgpu::util::DeviceExt;
 
 use super::Gpu;
 use super::material_buffers::material_bind_groups;
+use super::scene_order::{Order, index_buffer, order};
+use super::scene_view::Chunk;
 use super::vertex_light::{irradiance_buffer, light_bind_group};
 use crate::baked::{BakedScene, VertexLight};
 use crate::base::ids::MaterialId;
-use crate::scene::{AlphaMode, Scene, Triangle};
+use crate::scene::{AlphaMode, Scene};
 
 /// Half floats, of which HDR textures are made, hold this and four times as much.
 const COMFORTABLE_RADIANCE: f32 = 16_384.0;
@@ -35,6 +37,7 @@ pub struct SceneBuffers {
     pub batches: Vec<Batch>,
     /// Power of two that brings the scene's radiance into the range of half floats.
     pub pre_exposure: f32,
+    pub(super) chunks: Vec<Chunk>,
     pub(super) irradiance: wgpu::Buffer,
     pub(super) num_groups: usize,
     pub(super) num_vertices: usize,
@@ -92,17 +95,14 @@ impl SceneBuffers {
         let scene = &baked.scene;
         let num_groups = scene.light_groups.len().max(baked.light.groups.len());
         let irradiance = irradiance_buffer(gpu, num_groups, scene.vertices.len());
-        let (batches, indices) = batches(scene, |_| true);
+        let Order { batches, chunks, indices } = order(scene, |_| true);
         let buffers = Self {
             vertices: vertex_buffer(gpu, scene),
-            indices: gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("scene indices"),
-                contents: bytemuck::cast_slice(&indices),
-                usage: wgpu::BufferUsages::INDEX,
-            }),
+            indices: index_buffer(gpu, &indices),
             light: light_bind_group(gpu, &irradiance),
             materials: material_bind_groups(gpu, scene),
             batches,
+            chunks,
             pre_exposure: pre_exposure(baked),
             irradiance,
             num_groups,
@@ -138,36 +138,6 @@ fn vertex_buffer(gpu: &Gpu, scene: &Scene) -> wgpu::Buffer {
     })
 }
 
-/// Sorts the triangles that are shown by material, those that blend last, and cuts them into batches.
-pub(super) fn batches(scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> (Vec<Batch>, Vec<u32>) {
-    let has_twins = scene.triangles.iter().any(|triangle| triangle.is_back_side);
-    let mut triangles: Vec<_> = scene.triangles.iter().filter(|triangle| is_shown(triangle)).collect();
-    let blends = |material: MaterialId| scene.materials[material.index()].alpha_mode == AlphaMode::Blend;
-    triangles.sort_by_key(|triangle| (blends(triangle.material), triangle.material));
-    let mut batches = Vec::new();
-    let mut start = 0;
-    for same in triangles.chunk_by(|a, b| a.material == b.material) {
-        let end = start + 3 * same.len() as u32;
-        let material = &scene.materials[same[0].material.index()];
-        let faces = match (material.double_sided, has_twins) {
-            (false, _) => Faces::Front,
-            (true, true) => Faces::FrontOfTwins,
-            (true, false) => Faces::Both,
-        };
-        batches.push(Batch {
-            indices: start..end,
-            material: same[0].material,
-            alpha_mode: material.alpha_mode,
-            faces,
-            has_textures: material.base_colour_texture.is_some()
-                || material.metallic_roughness_texture.is_some()
-                || material.emissive_texture.is_some(),
-        });
-        start = end;
-    }
-    (batches, triangles.iter().flat_map(|triangle| triangle.vertices).collect())
-}
-
 /// A scale that brings the brightest lamp below [`COMFORTABLE_RADIANCE`], but keeps lit surfaces within
 /// [`COMFORTABLE_SURFACES`]; 1 where both are so already.
 fn pre_exposure(baked: &BakedScene) -> f32 {
@@ -195,35 +165,7 @@ fn typical_white_radiance(light: &VertexLight) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::ids::InstanceId;
     use crate::scene::Material;
-
-    fn triangle(material: u32, is_back_side: bool) -> Triangle {
-        Triangle { vertices: [material; 3], material: MaterialId(material), instance: InstanceId(0), is_back_side }
-    }
-
-    fn scene_of(modes: &[(AlphaMode, bool)], triangles: Vec<Triangle>) -> Scene {
-        let material = |&(alpha_mode, double_sided)| Material { alpha_mode, double_sided, ..Material::default() };
-        Scene { materials: modes.iter().map(material).collect(), triangles, ..Scene::default() }
-    }
-
-    #[test]
-    fn blending_triangles_are_drawn_last() {
-        let modes = [(AlphaMode::Blend, false), (AlphaMode::Opaque, false)];
-        let scene = scene_of(&modes, vec![triangle(0, false), triangle(1, false), triangle(0, false)]);
-        let (batches, indices) = batches(&scene, |_| true);
-        assert_eq!(indices, [1, 1, 1, 0, 0, 0, 0, 0, 0]);
-        assert_eq!(batches.iter().map(|b| b.indices.clone()).collect::<Vec<_>>(), [0..3, 3..9]);
-    }
-
-    #[test]
-    fn double_sided_triangles_are_culled_only_where_their_twins_exist() {
-        let modes = [(AlphaMode::Opaque, true), (AlphaMode::Opaque, false)];
-        let faces =
-            |triangles| batches(&scene_of(&modes, triangles), |_| true).0.iter().map(|b| b.faces).collect::<Vec<_>>();
-        assert_eq!(faces(vec![triangle(0, false), triangle(1, false)]), [Faces::Both, Faces::Front]);
-        assert_eq!(faces(vec![triangle(0, false), triangle(0, true)]), [Faces::FrontOfTwins]);
-    }
 
     #[test]
     fn only_very_bright_scenes_are_scaled_down_and_by_a_power_of_two() {

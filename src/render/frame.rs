@@ -110,7 +110,8 @@ impl Renderer {
     ) {
         let (Some(settings), Some(shadows)) = (&look.shadows, &self.shadows) else { return };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
-        let subject = Subject { frame: &frame, scene, shadows, view, look, watch: self.watch.as_deref() };
+        let seen = &scene.in_view(&view.frustum());
+        let subject = Subject { frame: &frame, scene, seen, shadows, view, look, watch: self.watch.as_deref() };
         let lit = self.lit.get_or_insert_with(|| LitPasses::new(gpu, &self.frame_layout, self.samples));
         lit.light.draw(gpu, encoder, size, subject, settings);
     }
@@ -133,9 +134,11 @@ impl Renderer {
         };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
 
+        let seen = &scene.in_view(&view.frustum());
         let subject = self.shadows.as_ref().map(|shadows| Subject {
             frame: &frame,
             scene,
+            seen,
             shadows,
             view,
             look,
@@ -148,10 +151,10 @@ impl Renderer {
             // Direct irradiance from the lights themselves, each in its shadows.
             let direct = lit.light.draw(gpu, encoder, size, subject, settings);
             // Radiance from every visible point towards the eye: stored indirect light, and that direct light.
-            lit.surface(settings.technique).draw(gpu, encoder, &targets, &frame, scene, look, Some(&direct));
+            lit.surface(settings.technique).draw(gpu, encoder, &targets, &frame, seen, look, Some(&direct));
         } else {
             // Radiance from every visible point towards the eye, several samples a pixel, and their mean.
-            self.surface.draw(gpu, encoder, &targets, &frame, scene, look, None);
+            self.surface.draw(gpu, encoder, &targets, &frame, seen, look, None);
         }
         lap(encoder, "surfaces");
         // The exposure that suits this picture, unless one is given.

@@ -3,6 +3,7 @@
 use glam::camera::rh::proj::directx;
 use glam::{Mat4, Vec3, Vec4};
 
+use crate::base::bounds::Frustum;
 use crate::scene::{Camera, Projection};
 
 /// Near plane of a perspective view, metres; reversed depth stays exact however near it is.
@@ -37,6 +38,12 @@ impl View {
             }
         };
         Self { camera_position: camera.position, view_from_world: camera.view_from_world(), projection_from_view }
+    }
+
+    /// What is in view.
+    #[must_use]
+    pub fn frustum(&self) -> Frustum {
+        Frustum::new(&self.projection_from_world())
     }
 
     /// Matrix from world space to clip space.

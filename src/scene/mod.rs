@@ -6,6 +6,7 @@
 
 pub mod builtin;
 pub mod camera;
+pub mod chunks;
 pub mod doctor;
 pub mod gltf;
 pub mod light;

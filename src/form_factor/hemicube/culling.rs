@@ -5,10 +5,10 @@
 
 use glam::{BVec4A, Mat4, Vec3, Vec4};
 
-use super::chunks::{CHUNK, bounds_of};
-use super::faces::{Bounds, Frustum};
+use crate::base::bounds::{Bounds, Frustum};
 use crate::base::ids::TriangleId;
 use crate::scene::Scene;
+use crate::scene::chunks::{CHUNK, chunk_bounds};
 
 /// Triangles tested together.
 const LANES: usize = 4;
@@ -39,8 +39,7 @@ struct Seen {
 
 impl Culling {
     pub(super) fn new(scene: &Scene, order: &[TriangleId]) -> Self {
-        let chunks: Vec<Bounds> =
-            order.chunks(CHUNK).map(|chunk| bounds_of(chunk.iter().flat_map(|t| scene.corners(*t)))).collect();
+        let chunks = chunk_bounds(scene, order);
         let lanes =
             order.chunks(LANES).map(|triangles| lanes_of(triangles.iter().map(|t| scene.corners(*t)))).collect();
         let reach = chunks.iter().map(|b| b.low.abs().max(b.high.abs()).max_element()).fold(0.0, f32::max);

@@ -43,38 +43,6 @@ fn projection(eye: Vec3, forward: Vec3, up: Vec3, is_half: bool, near: f32) -> M
     Mat4::from_cols(to_x, to_y, Vec4::new(0.0, 0.0, 0.0, near), to_w).transpose()
 }
 
-/// An axis-aligned box.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// Smallest corner.
-    pub low: Vec3,
-    /// Largest corner.
-    pub high: Vec3,
-}
-
-/// Half spaces whose intersection a face sees; their normals point inwards.
-#[derive(Clone, Copy, Debug)]
-pub struct Frustum([Vec4; 5]);
-
-impl Frustum {
-    /// The half spaces of a clip-from-world matrix without far plane.
-    #[must_use]
-    pub fn new(clip_from_world: &Mat4) -> Self {
-        let (x, y, w) = (clip_from_world.row(0), clip_from_world.row(1), clip_from_world.row(3));
-        Self([w, w + x, w - x, w + y, w - y])
-    }
-
-    /// Something of the box may be seen.
-    #[must_use]
-    pub fn meets(&self, bounds: &Bounds) -> bool {
-        self.0.iter().all(|plane| {
-            let normal = plane.truncate();
-            let furthest = Vec3::select(normal.cmpge(Vec3::ZERO), bounds.high, bounds.low);
-            normal.dot(furthest) + plane.w >= 0.0
-        })
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -118,14 +86,5 @@ mod tests {
         let top = projections(&viewpoint, 1e-3)[0];
         let ndc = project(&top, viewpoint.position + viewpoint.normal * 4.0).expect("in front");
         assert!((ndc.z - 1e-3 / 4.0).abs() < 1e-8);
-    }
-
-    #[test]
-    fn a_frustum_meets_what_is_ahead_and_not_what_is_behind() {
-        let viewpoint = viewpoint();
-        let frustum = Frustum::new(&projections(&viewpoint, 1e-3)[0]);
-        let around = |centre: Vec3| Bounds { low: centre - 0.1, high: centre + 0.1 };
-        assert!(frustum.meets(&around(viewpoint.position + viewpoint.normal * 3.0)));
-        assert!(!frustum.meets(&around(viewpoint.position - viewpoint.normal * 3.0)));
     }
 }

@@ -6,11 +6,11 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec2;
 use wgpu::util::DeviceExt;
 
-use super::chunks::spatial_order;
 use super::culling::Culling;
 use crate::base::ids::{MaterialId, TriangleId};
 use crate::gpu::Gpu;
 use crate::patch::{Node, PatchMesh};
+use crate::scene::chunks::spatial_order;
 use crate::scene::{AlphaMode, Scene, Wrap};
 
 /// Buffers of one scene.
@@ -28,7 +28,7 @@ pub(super) struct Geometry {
 
 impl Geometry {
     pub(super) fn new(gpu: &Gpu, scene: &Scene, mesh: &PatchMesh) -> Self {
-        let order = spatial_order(scene);
+        let order = spatial_order(scene, (0..scene.triangles.len()).map(TriangleId::new));
         let vertices: Vec<gpu_data::Vertex> = order.iter().flat_map(|&t| vertices_of(scene, mesh, t)).collect();
         let mut cutouts = Cutouts::default();
         let triangles: Vec<gpu_data::Triangle> = order.iter().map(|&t| cutouts.describe_triangle(scene, t)).collect();

@@ -7,7 +7,6 @@
 //! Source: Cohen, Greenberg 1985, "The Hemi-Cube: a radiosity solution for complex environments".
 
 mod atlas;
-mod chunks;
 mod culling;
 mod delta;
 mod faces;

@@ -89,7 +89,8 @@ impl Judge {
         let Case { scene, shadows, view, .. } = case;
         // The last case may have been another scene.
         self.light.forget();
-        of(&mut self.light, Subject { frame: &frame, scene, shadows, view, look: &look, watch: None })
+        let seen = &scene.in_view(&view.frustum());
+        of(&mut self.light, Subject { frame: &frame, scene, seen, shadows, view, look: &look, watch: None })
     }
 }
 

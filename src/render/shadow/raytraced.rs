@@ -117,9 +117,9 @@ impl RaytracedLight {
             _ => LightTargets::new(gpu, size, 1),
         };
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.prepass.draw(&mut encoder, &targets, subject.frame, subject.scene, subject.look);
+        self.prepass.draw(&mut encoder, &targets, subject.frame, subject.seen, subject.look);
         gpu.queue.submit([encoder.finish()]);
-        let points = self.points.find(gpu, &targets, subject.frame, subject.scene, subject.look);
+        let points = self.points.find(gpu, &targets, subject.frame, subject.seen, subject.look);
         self.targets = Some(targets);
         let lines = PixelLines::new(subject.view, size);
         let rays = subject.shadows.rays();

@@ -30,6 +30,8 @@ pub struct Subject<'a> {
     pub frame: &'a wgpu::BindGroup,
     /// On the device.
     pub scene: &'a SceneBuffers,
+    /// What of it may be in view.
+    pub seen: &'a SceneBuffers,
     /// Its casters and lights.
     pub shadows: &'a ShadowScene,
     /// From where.
@@ -138,7 +140,7 @@ impl RealTimeLight {
         subject.work("silhouettes, on the processor", || self.prepare(gpu, subject, &samples, settings));
 
         // Which surfaces are visible, and no light on them.
-        self.prepass.draw(encoder, &targets, subject.frame, subject.scene, subject.look);
+        self.prepass.draw(encoder, &targets, subject.frame, subject.seen, subject.look);
         if !goes_on {
             direct_light::clear(encoder, &targets);
         }
@@ -225,9 +227,9 @@ impl RealTimeLight {
             ShadowTechnique::Planar => &self.planar_light,
             _ => &self.unshadowed,
         });
-        light.draw(&mut pass, subject.scene, subject.look);
+        light.draw(&mut pass, subject.seen, subject.look);
         if settings.technique == ShadowTechnique::Planar && !settings.planar.darkens_once {
-            self.planar_twice.draw(&mut pass, subject.scene, subject.look);
+            self.planar_twice.draw(&mut pass, subject.seen, subject.look);
         }
         drop(pass);
         subject.lap(encoder, "direct light");

@@ -5,32 +5,29 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::faces::Bounds;
+use super::Scene;
+use crate::base::bounds::Bounds;
 use crate::base::ids::TriangleId;
-use crate::scene::Scene;
 
-/// Triangles that are culled together.
-pub(super) const CHUNK: usize = 64;
+/// Triangles that are drawn or left out together.
+pub const CHUNK: usize = 64;
 
-/// All triangles, chunk by chunk; those of a chunk, and chunks, lie near those beside them.
-pub(super) fn spatial_order(scene: &Scene) -> Vec<TriangleId> {
-    let placed = |t: usize| {
-        let id = TriangleId::new(t);
+/// Some triangles, chunk by chunk; those of a chunk, and chunks, lie near those beside them.
+pub fn spatial_order(scene: &Scene, triangles: impl Iterator<Item = TriangleId>) -> Vec<TriangleId> {
+    let placed = |id: TriangleId| {
         let corners = scene.corners(id);
-        let bounds = bounds_of(corners.into_iter());
+        let bounds = Bounds::of(corners.into_iter());
         Placed { id, bounds, centroid: corners.into_iter().sum::<Vec3>() / 3.0 }
     };
-    let mut triangles: Vec<Placed> = (0..scene.triangles.len()).map(placed).collect();
+    let mut triangles: Vec<Placed> = triangles.map(placed).collect();
     sort(&mut triangles);
     triangles.into_iter().map(|triangle| triangle.id).collect()
 }
 
-/// The box round some points; empty where there are none.
-pub(super) fn bounds_of(points: impl Iterator<Item = Vec3>) -> Bounds {
-    points.fold(EMPTY, |bounds, p| Bounds { low: bounds.low.min(p), high: bounds.high.max(p) })
+/// The boxes of the chunks of triangles in this order.
+pub fn chunk_bounds(scene: &Scene, order: &[TriangleId]) -> Vec<Bounds> {
+    order.chunks(CHUNK).map(|chunk| Bounds::of(chunk.iter().flat_map(|t| scene.corners(*t)))).collect()
 }
-
-const EMPTY: Bounds = Bounds { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
 
 #[derive(Clone, Copy)]
 struct Placed {
@@ -67,27 +64,18 @@ fn sort_along(triangles: &mut [Placed], axis: usize) {
 /// Cost of parting after each chunk but the last: area of the box x chunks, of both sides.
 fn costs(triangles: &[Placed]) -> Vec<f32> {
     let chunks: Vec<Bounds> =
-        triangles.chunks(CHUNK).map(|chunk| chunk.iter().fold(EMPTY, |sum, t| joined(sum, t.bounds))).collect();
+        triangles.chunks(CHUNK).map(|chunk| chunk.iter().fold(Bounds::EMPTY, |sum, t| sum.joined(t.bounds))).collect();
     let running = |bounds: &mut dyn Iterator<Item = &Bounds>| -> Vec<f32> {
         let grow = |sum: &mut Bounds, next: &Bounds| {
-            *sum = joined(*sum, *next);
-            Some(area(*sum))
+            *sum = sum.joined(*next);
+            Some(sum.half_area())
         };
-        bounds.scan(EMPTY, grow).collect()
+        bounds.scan(Bounds::EMPTY, grow).collect()
     };
     let (below, above) = (running(&mut chunks.iter()), running(&mut chunks.iter().rev()));
     let num_chunks = chunks.len();
     let cost = |cut: usize| below[cut - 1] * cut as f32 + above[num_chunks - cut - 1] * (num_chunks - cut) as f32;
     (1..num_chunks).map(cost).collect()
-}
-
-fn joined(a: Bounds, b: Bounds) -> Bounds {
-    Bounds { low: a.low.min(b.low), high: a.high.max(b.high) }
-}
-
-fn area(bounds: Bounds) -> f32 {
-    let size = bounds.high - bounds.low;
-    size.x * size.y + size.y * size.z + size.z * size.x
 }
 
 #[cfg(test)]
@@ -98,14 +86,11 @@ mod tests {
     #[test]
     fn chunks_hold_every_triangle_once_in_less_room_than_the_file_gives_them() {
         let scene = builtin::gallery();
-        let order = spatial_order(&scene);
+        let order = spatial_order(&scene, (0..scene.triangles.len()).map(TriangleId::new));
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.iter().enumerate().all(|(t, id)| id.index() == t) && sorted.len() == scene.triangles.len());
-        let room = |order: &[TriangleId]| -> f32 {
-            let of_chunk = |chunk: &[TriangleId]| area(bounds_of(chunk.iter().flat_map(|t| scene.corners(*t))));
-            order.chunks(CHUNK).map(of_chunk).sum()
-        };
+        let room = |order: &[TriangleId]| -> f32 { chunk_bounds(&scene, order).iter().map(Bounds::half_area).sum() };
         assert!(room(&order) < 0.8 * room(&sorted), "{} of {}", room(&order), room(&sorted));
     }
 }
