@@ -1,4 +1,5 @@
 //! Shadow maps that are kept from picture to picture: while neither the light nor the casters move, a map stays true.
+//! All renderers of a scene share them.
 
 use glam::Mat4;
 
@@ -49,11 +50,6 @@ pub struct MapCache {
 }
 
 impl MapCache {
-    /// Keeps nothing any more.
-    pub fn forget(&mut self) {
-        self.maps.clear();
-    }
-
     /// The map that shows this, and whether it has still to be drawn.
     ///
     /// Where there is no room left, the map that was asked for last makes room: lights take turns, and the others will be

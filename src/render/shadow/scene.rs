@@ -1,6 +1,6 @@
 //! What shadows ask of a scene beyond its buffers.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
 use glam::Vec4;
 use wgpu::util::DeviceExt;
@@ -8,6 +8,7 @@ use wgpu::util::DeviceExt;
 use super::casters::Casters;
 use super::cutout_shadow::Cutouts;
 use super::exact_rays::ExactRays;
+use super::map_cache::MapCache;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
 
@@ -22,6 +23,7 @@ pub struct ShadowScene {
     pub(super) cutouts: Vec<Cutouts>,
     /// Built when the truth is first asked for.
     rays: OnceLock<ExactRays>,
+    maps: Mutex<MapCache>,
 }
 
 impl ShadowScene {
@@ -35,7 +37,14 @@ impl ShadowScene {
             contents: bytemuck::cast_slice(&corners),
             usage: wgpu::BufferUsages::VERTEX,
         });
-        Self { cutouts: Cutouts::of_scene(gpu, &scene), scene, casters, corners, rays: OnceLock::new() }
+        Self {
+            cutouts: Cutouts::of_scene(gpu, &scene),
+            scene,
+            casters,
+            corners,
+            rays: OnceLock::new(),
+            maps: Mutex::default(),
+        }
     }
 
     /// The scene.
@@ -48,6 +57,11 @@ impl ShadowScene {
     #[must_use]
     pub fn casters(&self) -> &Casters {
         &self.casters
+    }
+
+    /// Shadow maps of its lights.
+    pub(super) fn maps(&self) -> MutexGuard<'_, MapCache> {
+        self.maps.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Lines of sight through it.

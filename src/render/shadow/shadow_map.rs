@@ -6,7 +6,7 @@ use glam::Mat4;
 use wgpu::util::DeviceExt;
 
 use super::light_samples::LightSample;
-use super::map_cache::{MapCache, Shown};
+use super::map_cache::Shown;
 use super::map_pipelines::{face_layout, pipeline, read_layout};
 use super::map_projection::MapProjection;
 use super::real_time::Subject;
@@ -43,7 +43,6 @@ pub struct ShadowMapPass {
     face_layout: wgpu::BindGroupLayout,
     read_layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
-    cache: MapCache,
 }
 
 impl ShadowMapPass {
@@ -70,7 +69,6 @@ impl ShadowMapPass {
             read_layout: read_layout(gpu),
             face_layout,
             sampler,
-            cache: MapCache::default(),
         }
     }
 
@@ -79,15 +77,10 @@ impl ShadowMapPass {
         &self.read_layout
     }
 
-    /// Forgets the maps that it keeps from picture to picture.
-    pub fn forget(&mut self) {
-        self.cache.forget();
-    }
-
     /// Draws the map of a light sample, unless it is kept, and binds it for the pass that reads it; the number of its faces,
     /// and the binding.
     pub fn draw(
-        &mut self,
+        &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         subject: Subject<'_>,
@@ -96,8 +89,8 @@ impl ShadowMapPass {
     ) -> (u32, wgpu::BindGroup) {
         let projection = MapProjection::new(subject.shadows.scene(), sample, settings);
         let shown = Shown::new(subject.scene, &projection.projection_from_world, settings.resolution);
-        let mut cache = std::mem::take(&mut self.cache);
-        let (map, is_new) = cache.map(gpu, shown);
+        let mut kept = subject.shadows.maps();
+        let (map, is_new) = kept.map(gpu, shown);
         if is_new {
             for (projection_from_world, face) in projection.projection_from_world.iter().zip(&map.faces) {
                 self.draw_face(gpu, encoder, subject, projection_from_world, face);
@@ -113,7 +106,6 @@ impl ShadowMapPass {
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.sampler) },
             ],
         });
-        self.cache = cache;
         (projection.projection_from_world.len() as u32, bindings)
     }
 

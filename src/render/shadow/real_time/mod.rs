@@ -116,7 +116,6 @@ impl RealTimeLight {
     /// Forgets what it keeps from picture to picture: the next is of another scene.
     pub fn forget(&mut self) {
         self.volumes.forget();
-        self.maps.forget();
     }
 
     /// Records the direct light of a picture of `size` pixels: a texture of irradiance times pre-exposure, with as many
