@@ -1,5 +1,6 @@
 //! What a bake will take, before it is begun.
 
+use super::method::Method;
 use super::settings::{BakeSettings, SHOOTING_RAYS};
 use crate::form_factor::Entry;
 use crate::patch::{Element, MeshError, PatchMesh};
@@ -7,6 +8,11 @@ use crate::scene::{Scene, Triangle, Vertex};
 
 /// Program, driver and their buffers, bytes.
 const PROGRAM: usize = 82 << 20;
+
+/// A software driver that draws hemicubes, its shader compiler and the atlases, bytes; and what it and the lists of
+/// indices hold of each triangle.
+const DRAWING: usize = 140 << 20;
+const DRAWN_TRIANGLE: usize = 2200;
 
 /// Elements that halving where light changes adds, as a share of the most that it may add: under lights that throw soft
 /// shadows only, and under lights that throw hard ones. Where their edges lie is not known yet.
@@ -35,17 +41,18 @@ pub struct Forecast {
 }
 
 impl Forecast {
-    /// Cuts the scene to see; light is not asked for.
+    /// Cuts the scene to see; light is not asked for. Without a method in the settings, rays are foretold.
     ///
     /// # Errors
     /// The scene cannot be cut.
     pub fn of(scene: &Scene, settings: &BakeSettings) -> Result<Self, MeshError> {
-        Ok(Self::of_mesh(scene, &PatchMesh::new(scene, &settings.mesh_settings(scene))?, settings))
+        let mesh = PatchMesh::new(scene, &settings.mesh_settings(scene))?;
+        Ok(Self::of_mesh(scene, &mesh, settings, settings.method.unwrap_or(Method::Hemisphere)))
     }
 
-    /// As [`Self::of`], for a scene that has been cut.
+    /// As [`Self::of`], for a scene that has been cut and a method that has been chosen.
     #[must_use]
-    pub fn of_mesh(scene: &Scene, mesh: &PatchMesh, settings: &BakeSettings) -> Self {
+    pub fn of_mesh(scene: &Scene, mesh: &PatchMesh, settings: &BakeSettings, method: Method) -> Self {
         let added = if settings.refine_error > 0.0 {
             let most = settings.max_elements(scene).saturating_sub(mesh.elements.len());
             TYPICAL_GROWTH[usize::from(!scene.lights.is_empty())] * most as f64
@@ -62,7 +69,11 @@ impl Forecast {
         let row = (f64::from(SHOOTING_RAYS) * SHARE_OF_ENTRIES) as usize * size_of::<Entry>();
         let rows = (mesh.patches.len() * settings.points_a_patch * row).min(super::settings::ROW_BYTES);
         let cut = grown(mesh.elements.len()) * an_element + grown(mesh.vertices.len()) * a_vertex;
-        let bytes = PROGRAM + textures + input + scene.triangles.len() * RAY_TREE + COPIES * cut + rows;
+        let drawing = match method {
+            Method::Hemicube => DRAWING + scene.triangles.len() * DRAWN_TRIANGLE,
+            Method::Hemisphere => 0,
+        };
+        let bytes = PROGRAM + drawing + textures + input + scene.triangles.len() * RAY_TREE + COPIES * cut + rows;
         Self { elements: mesh.elements.len(), patches: mesh.patches.len(), vertices: mesh.light_vertices.len(), bytes }
     }
 }

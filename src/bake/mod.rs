@@ -109,7 +109,7 @@ pub fn bake_with_rows(
     watch.report(Stage::Mesh, 0.0);
     let sizes = settings.mesh_settings(scene);
     let (mut cut, mesh) = Cut::new(scene, sizes)?;
-    let predicted = Forecast::of_mesh(scene, &mesh, settings).bytes as u64;
+    let predicted = Forecast::of_mesh(scene, &mesh, settings, method).bytes as u64;
     log::info!("{} elements; about {} MiB of memory", mesh.elements.len(), predicted >> 20);
     watch.mesh(&dark_scene(scene, &mesh));
     clock.lap(Stage::Mesh);
