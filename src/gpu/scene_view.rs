@@ -18,18 +18,7 @@ impl SceneBuffers {
     /// The part of the scene that a view may see, in the same buffers.
     #[must_use]
     pub fn in_view(&self, frustum: &Frustum) -> Self {
-        let mut batches: Vec<Batch> = Vec::new();
-        let mut last = None;
-        for chunk in self.chunks.iter().filter(|chunk| frustum.meets(&chunk.bounds)) {
-            match batches.last_mut() {
-                // Chunks one behind the other are one draw.
-                Some(batch) if last == Some(chunk.batch) && batch.indices.end == chunk.indices.start => {
-                    batch.indices.end = chunk.indices.end;
-                }
-                _ => batches.push(Batch { indices: chunk.indices.clone(), ..self.batches[chunk.batch].clone() }),
-            }
-            last = Some(chunk.batch);
-        }
+        let batches = seen(&self.batches, &self.chunks, frustum);
         self.sharing_buffers(self.indices.clone(), batches, Vec::new())
     }
 
@@ -46,6 +35,60 @@ impl SceneBuffers {
             irradiance: self.irradiance.clone(),
             num_groups: self.num_groups,
             num_vertices: self.num_vertices,
+        }
+    }
+}
+
+/// The parts of the batches whose chunks meet the view; chunks one behind the other are one draw.
+fn seen(batches: &[Batch], chunks: &[Chunk], frustum: &Frustum) -> Vec<Batch> {
+    let mut seen: Vec<Batch> = Vec::new();
+    let mut last = None;
+    for chunk in chunks.iter().filter(|chunk| frustum.meets(&chunk.bounds)) {
+        match seen.last_mut() {
+            Some(batch) if last == Some(chunk.batch) && batch.indices.end == chunk.indices.start => {
+                batch.indices.end = chunk.indices.end;
+            }
+            _ => seen.push(Batch { indices: chunk.indices.clone(), ..batches[chunk.batch].clone() }),
+        }
+        last = Some(chunk.batch);
+    }
+    seen
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use glam::camera::rh::proj::directx::perspective_infinite_reverse;
+    use glam::camera::rh::view::look_at_mat4;
+
+    use super::*;
+    use crate::gpu::scene_order::order;
+    use crate::scene::builtin;
+
+    #[test]
+    fn all_that_is_in_view_is_drawn_in_its_material_and_not_all_that_there_is() {
+        let scene = builtin::gallery();
+        let all = order(&scene, |_| true);
+        let (low, high) = scene.bounds();
+        let eye = low.lerp(high, 0.5);
+        for towards in [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z, Vec3::new(0.4, -0.8, 0.3)] {
+            let clip_from_world =
+                perspective_infinite_reverse(0.8, 1.6, 0.01) * look_at_mat4(eye, eye + towards, Vec3::Y);
+            let batches = seen(&all.batches, &all.chunks, &Frustum::new(&clip_from_world));
+            let in_view = |index: u32| {
+                let clip = clip_from_world * scene.vertices[index as usize].position.extend(1.0);
+                clip.w > 0.0 && clip.x.abs() < clip.w && clip.y.abs() < clip.w
+            };
+            let mut num_seen = 0;
+            for batch in &all.batches {
+                for first in batch.indices.clone().step_by(3) {
+                    let drawn = batches.iter().filter(|b| b.material == batch.material && b.indices.contains(&first));
+                    let (corners, count) = (&all.indices[first as usize..][..3], drawn.count());
+                    assert!(count == 1 || count == 0 && !corners.iter().any(|&c| in_view(c)), "{first}: {count}");
+                    num_seen += count;
+                }
+            }
+            assert!(num_seen > 0 && 4 * num_seen < 3 * scene.triangles.len(), "{towards}: {num_seen}");
         }
     }
 }
