@@ -2,7 +2,8 @@
 //
 //   L = emission + rho / pi x sum over groups of weight x (direct x E_direct + indirect x E_indirect)
 //
-// Irradiance E is summed at the vertices and interpolated; rho and emission are read per pixel, so textures stay sharp.
+// Irradiance E was summed over the groups at the vertices (shaders/weigh_groups.wgsl) and is interpolated; rho and emission
+// are read per pixel, so textures stay sharp.
 
 // What is shown, fixed when a pipeline is made.
 const SHADING_LIT: u32 = 0u;
@@ -18,15 +19,14 @@ const LARGEST_HALF: f32 = 65000.0;
 // Direct light comes from the lights themselves (shaders/direct_light.wgsl) and not from the vertices.
 override LIT_BY_LIGHTS: bool = false;
 
-// Irradiance of the vertices: [2 x group + (0 direct, 1 indirect)][vertex], three floats each.
-@group(1) @binding(0) var<storage, read> irradiance: array<f32>;
-
 struct Vertex {
-    @builtin(vertex_index) index: u32,
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) uv: vec4f,
     @location(3) colour: vec4f,
+    // Irradiance, summed over the light groups.
+    @location(4) direct: vec3f,
+    @location(5) indirect: vec3f,
 }
 
 struct Varying {
@@ -46,25 +46,10 @@ fn vertex(in: Vertex) -> Varying {
     out.normal = in.normal;
     out.colour = in.colour;
     out.uv = in.uv;
-    out.white_radiance = frame.ambient + vertex_irradiance(in.index) / PI;
-    return out;
-}
-
-fn vertex_irradiance(index: u32) -> vec3f {
     // Surfaces that blend stay with the stored light.
     let direct = select(frame.direct, 0.0, LIT_BY_LIGHTS && ALPHA_MODE != ALPHA_BLEND);
-    var sum = vec3f(0.0);
-    for (var group = 0u; group < choices.num_groups; group++) {
-        let weight = group_weight(group);
-        sum += weight * direct * stored_irradiance(2u * group, index);
-        sum += weight * frame.indirect * stored_irradiance(2u * group + 1u, index);
-    }
-    return sum;
-}
-
-fn stored_irradiance(part: u32, index: u32) -> vec3f {
-    let at = 3u * (part * frame.num_vertices + index);
-    return vec3f(irradiance[at], irradiance[at + 1u], irradiance[at + 2u]);
+    out.white_radiance = frame.ambient + (direct * in.direct + frame.indirect * in.indirect) / PI;
+    return out;
 }
 
 // Colour of a fragment that receives `direct`, irradiance scaled by pre-exposure, beside the light of the vertices.

@@ -13,7 +13,7 @@ use super::Gpu;
 use super::material_buffers::material_bind_groups;
 use super::scene_order::{Order, index_buffer, order};
 use super::scene_view::Chunk;
-use super::vertex_light::{irradiance_buffer, light_bind_group};
+use super::vertex_light::LightBuffer;
 use crate::baked::{BakedScene, VertexLight};
 use crate::base::ids::MaterialId;
 use crate::scene::{AlphaMode, Scene};
@@ -29,8 +29,6 @@ pub struct SceneBuffers {
     pub vertices: wgpu::Buffer,
     /// Three u32 a triangle, batch by batch.
     pub indices: wgpu::Buffer,
-    /// Binds the irradiance as [`light_layout`](super::vertex_light::light_layout) says.
-    pub light: wgpu::BindGroup,
     /// Bind groups of the materials `[m]`.
     pub materials: Vec<wgpu::BindGroup>,
     /// Triangles by material, those that blend last.
@@ -38,7 +36,7 @@ pub struct SceneBuffers {
     /// Power of two that brings the scene's radiance into the range of half floats.
     pub pre_exposure: f32,
     pub(super) chunks: Vec<Chunk>,
-    pub(super) irradiance: wgpu::Buffer,
+    pub(super) light: LightBuffer,
     pub(super) num_groups: usize,
     pub(super) num_vertices: usize,
 }
@@ -94,17 +92,15 @@ impl SceneBuffers {
     pub fn new(gpu: &Gpu, baked: &BakedScene) -> Self {
         let scene = &baked.scene;
         let num_groups = scene.light_groups.len().max(baked.light.groups.len());
-        let irradiance = irradiance_buffer(gpu, num_groups, scene.vertices.len());
         let Order { batches, chunks, indices } = order(scene, |_| true);
         let buffers = Self {
             vertices: vertex_buffer(gpu, scene),
             indices: index_buffer(gpu, &indices),
-            light: light_bind_group(gpu, &irradiance),
             materials: material_bind_groups(gpu, scene),
             batches,
             chunks,
             pre_exposure: pre_exposure(baked),
-            irradiance,
+            light: LightBuffer::new(gpu, num_groups, scene.vertices.len()),
             num_groups,
             num_vertices: scene.vertices.len(),
         };

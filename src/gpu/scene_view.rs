@@ -27,12 +27,11 @@ impl SceneBuffers {
         Self {
             vertices: self.vertices.clone(),
             indices,
-            light: self.light.clone(),
             materials: self.materials.clone(),
             batches,
             chunks,
             pre_exposure: self.pre_exposure,
-            irradiance: self.irradiance.clone(),
+            light: self.light.clone(),
             num_groups: self.num_groups,
             num_vertices: self.num_vertices,
         }

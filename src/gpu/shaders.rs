@@ -50,6 +50,8 @@ pub const SURFACE_LIT_SAMPLES: Shader = shader!(
     "surface.wgsl",
     "shared/direct_many.wgsl"
 );
+/// Light of the vertices summed over the light groups.
+pub const WEIGH_GROUPS: Shader = shader!("weigh groups", "shared/frame.wgsl", "weigh_groups.wgsl");
 /// Depth of the visible surfaces.
 pub const DEPTH_PREPASS: Shader =
     shader!("depth prepass", "shared/frame.wgsl", "shared/material.wgsl", "depth_prepass.wgsl");
@@ -135,6 +137,7 @@ pub const ALL: &[&Shader] = &[
     &SURFACE,
     &SURFACE_LIT,
     &SURFACE_LIT_SAMPLES,
+    &WEIGH_GROUPS,
     &DEPTH_PREPASS,
     &DIRECT_LIGHT,
     &SHADOW_VOLUME,

@@ -9,6 +9,7 @@ use super::shadow::real_time::{RealTimeLight, Subject};
 use super::shadow::{ShadowScene, ShadowTechnique};
 use super::surface::{Direct, SurfacePass};
 use super::tonemap::ToneMapPass;
+use super::weighted_light::WeightedLight;
 use super::{Look, View};
 use crate::gpu::readback::read_buffer;
 use crate::gpu::targets::Targets;
@@ -17,6 +18,7 @@ use crate::gpu::{Gpu, GpuError, SceneBuffers, Stopwatch};
 /// Draws pictures of one output format.
 pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
+    weighted: WeightedLight,
     surface: SurfacePass,
     lit: Option<LitPasses>,
     shadows: Option<Arc<ShadowScene>>,
@@ -61,6 +63,7 @@ impl Renderer {
         let frame_layout = frame_layout(gpu);
         Self {
             surface: SurfacePass::new(gpu, &frame_layout, samples, Direct::Stored),
+            weighted: WeightedLight::new(gpu, &frame_layout),
             lit: None,
             shadows: None,
             debug: None,
@@ -134,6 +137,8 @@ impl Renderer {
         };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
 
+        // The light of the vertices, each group as bright as wanted.
+        let light = self.weighted.of(gpu, encoder, &frame, scene, look);
         let seen = &scene.in_view(&view.frustum());
         let subject = self.shadows.as_ref().map(|shadows| Subject {
             frame: &frame,
@@ -151,10 +156,10 @@ impl Renderer {
             // Direct irradiance from the lights themselves, each in its shadows.
             let direct = lit.light.draw(gpu, encoder, size, subject, settings);
             // Radiance from every visible point towards the eye: stored indirect light, and that direct light.
-            lit.surface(settings.technique).draw(gpu, encoder, &targets, &frame, seen, look, Some(&direct));
+            lit.surface(settings.technique).draw(gpu, encoder, &targets, &frame, seen, light, look, Some(&direct));
         } else {
             // Radiance from every visible point towards the eye, several samples a pixel, and their mean.
-            self.surface.draw(gpu, encoder, &targets, &frame, seen, look, None);
+            self.surface.draw(gpu, encoder, &targets, &frame, seen, light, look, None);
         }
         lap(encoder, "surfaces");
         // The exposure that suits this picture, unless one is given.

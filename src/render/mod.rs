@@ -20,6 +20,7 @@ mod frame_uniform;
 mod meter;
 mod surface;
 mod tonemap;
+mod weighted_light;
 
 pub use compare::{Difference, Raster, compare, visible_difference};
 pub use develop::develop;

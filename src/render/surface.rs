@@ -2,11 +2,11 @@
 
 use std::collections::HashMap;
 
+use super::weighted_light::WeightedLight;
 use super::{Look, Shading};
 use crate::gpu::material_buffers::material_layout;
 use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex};
 use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
-use crate::gpu::vertex_light::light_layout;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 use crate::scene::AlphaMode;
 
@@ -138,8 +138,8 @@ impl SurfacePass {
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32, direct: Direct) -> Self {
         let direct_layout = direct.layout(gpu);
         let module = direct.shader().module(&gpu.device);
-        let (light, material) = (light_layout(gpu), material_layout(gpu));
-        let mut layouts = vec![Some(frame_layout), Some(&light), Some(&material)];
+        let material = material_layout(gpu);
+        let mut layouts = vec![Some(frame_layout), None, Some(&material)];
         layouts.extend(direct_layout.as_ref().map(Some));
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("surface"),
@@ -149,7 +149,7 @@ impl SurfacePass {
         Self { layout, module, samples, pipelines: HashMap::new(), direct_layout }
     }
 
-    /// Clears the targets and draws the scene into them; `direct` is the texture that [`Direct`] promised.
+    /// Clears the targets and draws the scene into them, its vertices in `light`; `direct` is the texture that [`Direct`] promised.
     #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, targets) and what of it")]
     pub fn draw(
         &mut self,
@@ -158,6 +158,7 @@ impl SurfacePass {
         targets: &Targets,
         frame: &wgpu::BindGroup,
         scene: &SceneBuffers,
+        light: &wgpu::Buffer,
         look: &Look,
         direct: Option<&wgpu::TextureView>,
     ) {
@@ -172,9 +173,9 @@ impl SurfacePass {
             pass.set_bind_group(3, &direct, &[]);
         }
         pass.set_bind_group(0, frame, &[]);
-        pass.set_bind_group(1, &scene.light, &[]);
         if !scene.batches.is_empty() {
             pass.set_vertex_buffer(0, scene.vertices.slice(..));
+            pass.set_vertex_buffer(1, light.slice(..));
             pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
         }
         for batch in &scene.batches {
@@ -252,7 +253,7 @@ fn pipeline(
             module,
             entry_point: Some("vertex"),
             compilation_options: compilation_options.clone(),
-            buffers: &[Some(GpuVertex::LAYOUT)],
+            buffers: &[Some(GpuVertex::LAYOUT), Some(WeightedLight::LAYOUT)],
         },
         primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
         depth_stencil: Some(wgpu::DepthStencilState {

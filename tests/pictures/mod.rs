@@ -3,6 +3,7 @@
 mod display;
 mod files;
 mod radiance;
+mod relit;
 mod sides;
 mod stage;
 mod textures;

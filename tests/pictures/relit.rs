@@ -1,0 +1,68 @@
+//! One renderer, and light that changes between its pictures.
+
+use std::f32::consts::PI;
+
+use glam::Vec3;
+use hemicube::base::ids::GroupId;
+use hemicube::gpu::readback::read_texture;
+use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::{Look, Renderer, View};
+use wgpu::{CommandEncoderDescriptor, Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages};
+
+use super::stage::{SIZE, plain};
+use crate::support::device::gpu;
+use crate::support::quads::{Quads, paint, square_camera};
+
+/// Display value of the middle, red, of one picture after the other by the same renderer.
+fn red(gpu: &Gpu, renderer: &mut Renderer, scene: &SceneBuffers, look: &Look) -> u8 {
+    let target = gpu.device.create_texture(&TextureDescriptor {
+        label: None,
+        size: Extent3d { width: SIZE, height: SIZE, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: TextureDimension::D2,
+        format: TextureFormat::Rgba8Unorm,
+        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
+        view_formats: &[],
+    });
+    let view = View::from_camera(&square_camera(), 1.0);
+    let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), [SIZE; 2], scene, &view, look);
+    gpu.queue.submit([encoder.finish()]);
+    read_texture(gpu, &target, 4).expect("a picture")[(4 * (SIZE * SIZE / 2 + SIZE / 2)) as usize]
+}
+
+/// White paint whose group `group` alone brings radiance 0.5, half of it direct.
+fn lit_by(num_groups: usize, group: usize) -> Quads {
+    let mut quads = Quads::with_groups(num_groups);
+    let white = quads.material(paint(Vec3::ONE));
+    quads.quad(Vec3::new(-1.0, -1.0, 0.0), 2.0 * Vec3::X, 2.0 * Vec3::Y, white);
+    for number in 0..num_groups {
+        let part = if number == group { Vec3::splat(0.25 * PI) } else { Vec3::ZERO };
+        quads.light(GroupId::new(number), |_| part, |_| part);
+    }
+    quads
+}
+
+#[test]
+fn light_that_was_dimmed_or_renewed_is_seen_in_the_next_picture() {
+    let Some(gpu) = gpu() else { return };
+    const HALF: u8 = 188;
+    const QUARTER: u8 = 137;
+    let mut renderer = Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
+    let mut quads = lit_by(2, 1);
+    let scene = SceneBuffers::new(gpu, &quads.baked);
+    let mut shown = |scene: &SceneBuffers, look: &Look| red(gpu, &mut renderer, scene, look);
+    assert_eq!(shown(&scene, &plain()), HALF);
+    let dimmed = Look { group_weights: vec![Vec3::ONE, Vec3::splat(0.5)], ..plain() };
+    assert_eq!(shown(&scene, &dimmed), QUARTER);
+    let of_the_other = Look { group_weights: vec![Vec3::splat(0.5), Vec3::ONE], ..plain() };
+    assert_eq!(shown(&scene, &of_the_other), HALF);
+    assert_eq!(shown(&scene, &Look { indirect: 0.0, ..of_the_other }), QUARTER);
+    // Renewed light of the same scene, then another scene of the same size.
+    quads.light(GroupId(1), |_| Vec3::splat(0.25 * PI), |_| Vec3::ZERO);
+    scene.set_light(gpu, &quads.baked.light);
+    assert_eq!(shown(&scene, &plain()), QUARTER);
+    assert_eq!(shown(&SceneBuffers::new(gpu, &lit_by(1, 0).baked), &plain()), HALF);
+    assert_eq!(shown(&scene, &plain()), QUARTER);
+}
