@@ -8,5 +8,5 @@ struct Found {
 
 @fragment
 fn fragment(in: VisiblePoint, @builtin(front_facing) is_front: bool) -> Found {
-    return Found(vec4f(in.point, 1.0), vec4f(seen_normal(in, is_front), 0.0));
+    return Found(vec4f(in.point, 1.0), vec4f(seen_normal(in.normal, is_front), 0.0));
 }

@@ -31,12 +31,15 @@ struct Vertex {
 
 struct Varying {
     @builtin(position) @invariant position: vec4f,
-    @location(0) normal: vec3f,
+    @location(0) @interpolate(perspective, centroid) normal: vec3f,
     @location(1) colour: vec4f,
     // Both coordinate sets.
     @location(2) uv: vec4f,
     // Radiance of an ideal white surface; centroid, so that it is never extrapolated beyond the triangle.
     @location(3) @interpolate(perspective, centroid) white_radiance: vec3f,
+    // Metres, world space; as in shared/visible_point.wgsl.
+    @location(4) @interpolate(perspective, centroid) point: vec3f,
+    @location(5) middle: vec3f,
 }
 
 @vertex
@@ -44,6 +47,8 @@ fn vertex(in: Vertex) -> Varying {
     var out: Varying;
     out.position = frame.projection_from_world * vec4f(in.position, 1.0);
     out.normal = in.normal;
+    out.point = in.position;
+    out.middle = in.position;
     out.colour = in.colour;
     out.uv = in.uv;
     // Surfaces that blend stay with the stored light.

@@ -1,4 +1,4 @@
-// One light sample and the irradiance that it brings where nothing stands between. Written by
+// A light sample and the irradiance that it brings where nothing stands between. Written by
 // src/render/shadow/light_samples.rs, whose formulas are the same.
 
 // Light that grazes a surface more than this brings nothing worth a decision.
@@ -22,10 +22,7 @@ struct LightSample {
     padding: vec2f,
 }
 
-// No branch depends on it, as shared/frame.wgsl explains.
-@group(1) @binding(0) var<uniform> light: LightSample;
-
-fn irradiance(point: vec3f, normal: vec3f) -> vec3f {
+fn irradiance(light: LightSample, point: vec3f, normal: vec3f) -> vec3f {
     let offset = light.place.xyz - light.place.w * point;
     let square = max(dot(offset, offset), SHORTEST_SQUARE);
     let to_light = offset * inverseSqrt(square);
@@ -33,17 +30,17 @@ fn irradiance(point: vec3f, normal: vec3f) -> vec3f {
     if cosine <= GRAZING_COSINE {
         return vec3f(0.0);
     }
-    return light.intensity * (cosine * emitted_share(to_light) * falloff(square));
+    return light.intensity * (cosine * emitted_share(light, to_light) * falloff(light, square));
 }
 
-fn emitted_share(to_light: vec3f) -> f32 {
+fn emitted_share(light: LightSample, to_light: vec3f) -> f32 {
     let cosine = dot(-to_light, light.axis);
     let in_cone = saturate(cosine * light.cone_scale + light.cone_offset);
     let from_surface = select(0.0, cosine, cosine > GRAZING_COSINE);
     return select(in_cone * in_cone, from_surface, light.is_surface > 0.0);
 }
 
-fn falloff(square: f32) -> f32 {
+fn falloff(light: LightSample, square: f32) -> f32 {
     let share = square * light.inverse_square_range;
     return select(1.0, saturate(1.0 - share * share) / square, light.place.w > 0.0);
 }

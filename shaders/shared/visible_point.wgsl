@@ -19,8 +19,3 @@ struct VisiblePoint {
 fn vertex(in: Vertex) -> VisiblePoint {
     return VisiblePoint(frame.projection_from_world * vec4f(in.position, 1.0), in.position, in.normal, in.position);
 }
-
-// Unit shading normal on the side that is seen.
-fn seen_normal(in: VisiblePoint, is_front: bool) -> vec3f {
-    return normalize(select(-in.normal, in.normal, is_front));
-}

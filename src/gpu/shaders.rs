@@ -50,6 +50,19 @@ pub const SURFACE_LIT_SAMPLES: Shader = shader!(
     "surface.wgsl",
     "shared/direct_many.wgsl"
 );
+/// Surface pass with the direct light of a few light samples.
+pub const SURFACE_FEW_LIGHTS: Shader = shader!(
+    "surface few lights",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "shared/facet.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/map_lookup.wgsl",
+    "surface.wgsl",
+    "shared/direct_few.wgsl"
+);
 /// Light of the vertices summed over the light groups.
 pub const WEIGH_GROUPS: Shader = shader!("weigh groups", "shared/frame.wgsl", "weigh_groups.wgsl");
 /// Depth of the visible surfaces.
@@ -60,13 +73,20 @@ pub const DIRECT_LIGHT: Shader = shader!(
     "direct light",
     "shared/frame.wgsl",
     "shared/visible_point.wgsl",
+    "shared/facet.wgsl",
     "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
     "shared/visibility_stencil.wgsl",
     "direct_light.wgsl"
 );
 /// Counts shadow volumes in the stencil.
-pub const SHADOW_VOLUME: Shader =
-    shader!("shadow volume", "shared/frame.wgsl", "shared/light_sample.wgsl", "shadow_volume.wgsl");
+pub const SHADOW_VOLUME: Shader = shader!(
+    "shadow volume",
+    "shared/frame.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
+    "shadow_volume.wgsl"
+);
 /// Marks what lies behind casters with holes.
 pub const CUTOUT_SHADOW: Shader = shader!(
     "cut-out shadow",
@@ -74,6 +94,7 @@ pub const CUTOUT_SHADOW: Shader = shader!(
     "shared/material.wgsl",
     "shared/visible_point.wgsl",
     "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
     "cutout_shadow.wgsl"
 );
 /// Depth as a light sees it.
@@ -83,7 +104,10 @@ pub const DIRECT_LIGHT_MAP: Shader = shader!(
     "direct light, map",
     "shared/frame.wgsl",
     "shared/visible_point.wgsl",
+    "shared/facet.wgsl",
     "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
+    "shared/map_lookup.wgsl",
     "shared/visibility_map.wgsl",
     "direct_light.wgsl"
 );
@@ -91,7 +115,7 @@ pub const DIRECT_LIGHT_MAP: Shader = shader!(
 pub const PLANAR_SHADOW: Shader = shader!("planar shadow", "shared/frame.wgsl", "planar_shadow.wgsl");
 /// Places and normals of visible points.
 pub const VISIBLE_POINTS: Shader =
-    shader!("visible points", "shared/frame.wgsl", "shared/visible_point.wgsl", "raytraced.wgsl");
+    shader!("visible points", "shared/frame.wgsl", "shared/visible_point.wgsl", "shared/facet.wgsl", "raytraced.wgsl");
 /// Lines and tinted faces over a picture.
 pub const OVERLAY: Shader = shader!("overlay", "shared/frame.wgsl", "shared/colour.wgsl", "overlay.wgsl");
 /// What the stencil counts, in colours over a picture.
@@ -107,6 +131,8 @@ pub const MAP_FACES: Shader = shader!(
     "map faces",
     "shared/colour.wgsl",
     "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
+    "shared/map_lookup.wgsl",
     "shared/visibility_map.wgsl",
     "map_faces.wgsl"
 );
@@ -137,6 +163,7 @@ pub const ALL: &[&Shader] = &[
     &SURFACE,
     &SURFACE_LIT,
     &SURFACE_LIT_SAMPLES,
+    &SURFACE_FEW_LIGHTS,
     &WEIGH_GROUPS,
     &DEPTH_PREPASS,
     &DIRECT_LIGHT,

@@ -7,7 +7,7 @@ use super::meter::Meter;
 use super::shadow::debug::DebugPass;
 use super::shadow::real_time::{RealTimeLight, Subject};
 use super::shadow::{ShadowScene, ShadowTechnique};
-use super::surface::{Direct, SurfacePass};
+use super::surface::{Direct, DirectSource, SurfacePass};
 use super::tonemap::ToneMapPass;
 use super::weighted_light::WeightedLight;
 use super::{Look, View};
@@ -39,15 +39,18 @@ struct LitPasses {
     light: RealTimeLight,
     surface: SurfacePass,
     surface_traced: SurfacePass,
+    surface_few: SurfacePass,
 }
 
 impl LitPasses {
     fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32) -> Self {
-        let direct = if samples > 1 { Direct::Samples } else { Direct::Pixels };
+        let surface = |source| SurfacePass::new(gpu, frame_layout, samples, source);
+        let direct = if samples > 1 { DirectSource::Samples } else { DirectSource::Pixels };
         Self {
             light: RealTimeLight::new(gpu, frame_layout, samples),
-            surface: SurfacePass::new(gpu, frame_layout, samples, direct),
-            surface_traced: SurfacePass::new(gpu, frame_layout, samples, Direct::Pixels),
+            surface: surface(direct),
+            surface_traced: surface(DirectSource::Pixels),
+            surface_few: surface(DirectSource::Few),
         }
     }
 
@@ -62,7 +65,7 @@ impl Renderer {
     pub fn new(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32) -> Self {
         let frame_layout = frame_layout(gpu);
         Self {
-            surface: SurfacePass::new(gpu, &frame_layout, samples, Direct::Stored),
+            surface: SurfacePass::new(gpu, &frame_layout, samples, DirectSource::Stored),
             weighted: WeightedLight::new(gpu, &frame_layout),
             lit: None,
             shadows: None,
@@ -153,13 +156,20 @@ impl Renderer {
             |encoder: &mut wgpu::CommandEncoder, name| self.watch.iter().for_each(|watch| watch.lap(encoder, name));
         if let (Some(settings), Some(subject)) = (&look.shadows, subject) {
             let lit = self.lit.get_or_insert_with(|| LitPasses::new(gpu, &self.frame_layout, self.samples));
-            // Direct irradiance from the lights themselves, each in its shadows.
-            let direct = lit.light.draw(gpu, encoder, size, subject, settings);
-            // Radiance from every visible point towards the eye: stored indirect light, and that direct light.
-            lit.surface(settings.technique).draw(gpu, encoder, &targets, &frame, seen, light, look, Some(&direct));
+            if let Some(lights) = lit.light.few_lights(gpu, encoder, subject, settings) {
+                // Radiance from every visible point towards the eye: stored indirect light, and that of a few lights.
+                let direct = Direct::Few(&lights);
+                lit.surface_few.draw(gpu, encoder, &targets, &frame, seen, light, look, &direct);
+            } else {
+                // Direct irradiance from the lights themselves, each in its shadows.
+                let direct = lit.light.draw(gpu, encoder, size, subject, settings);
+                // Radiance from every visible point towards the eye: stored indirect light, and that direct light.
+                let surface = lit.surface(settings.technique);
+                surface.draw(gpu, encoder, &targets, &frame, seen, light, look, &Direct::Texture(&direct));
+            }
         } else {
             // Radiance from every visible point towards the eye, several samples a pixel, and their mean.
-            self.surface.draw(gpu, encoder, &targets, &frame, seen, light, look, None);
+            self.surface.draw(gpu, encoder, &targets, &frame, seen, light, look, &Direct::Stored);
         }
         lap(encoder, "surfaces");
         // The exposure that suits this picture, unless one is given.

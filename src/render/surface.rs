@@ -2,142 +2,89 @@
 
 use std::collections::HashMap;
 
-use super::weighted_light::WeightedLight;
-use super::{Look, Shading};
+use super::Look;
+use super::shadow::few_lights::{self, FewLights, Kinds};
+use super::surface_variant::Variant;
 use crate::gpu::material_buffers::material_layout;
-use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex};
-use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, Targets};
+use crate::gpu::scene_buffers::Batch;
+use crate::gpu::targets::Targets;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
-use crate::scene::AlphaMode;
-
-/// Colour is premultiplied and coverage adds up under it.
-const PREMULTIPLIED: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
-
-/// A mask's samples are solid, but their alpha is the coverage of the pixel: it must not thin what lies behind.
-const KEEP_LARGER_ALPHA: wgpu::BlendState = wgpu::BlendState {
-    color: wgpu::BlendComponent::REPLACE,
-    alpha: wgpu::BlendComponent {
-        src_factor: wgpu::BlendFactor::One,
-        dst_factor: wgpu::BlendFactor::One,
-        operation: wgpu::BlendOperation::Max,
-    },
-};
-
-/// A kind of alpha as a pipeline knows it.
-struct AlphaVariant {
-    label: &'static str,
-    /// `ALPHA_MODE` of the shader.
-    shader_mode: f64,
-    blend: Option<wgpu::BlendState>,
-    writes_depth: bool,
-    to_coverage: bool,
-}
-
-const OPAQUE: AlphaVariant =
-    AlphaVariant { label: "opaque", shader_mode: 0.0, blend: None, writes_depth: true, to_coverage: false };
-const MASK: AlphaVariant = AlphaVariant {
-    label: "mask",
-    shader_mode: 1.0,
-    blend: Some(KEEP_LARGER_ALPHA),
-    writes_depth: true,
-    to_coverage: true,
-};
-const BLEND: AlphaVariant = AlphaVariant {
-    label: "blend",
-    shader_mode: 2.0,
-    blend: Some(PREMULTIPLIED),
-    writes_depth: false,
-    to_coverage: false,
-};
-
-/// What is fixed when a pipeline is made, so that its shader has no branch for it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-struct Variant {
-    shading: Shading,
-    alpha: Alpha,
-    has_textures: bool,
-    culls: bool,
-}
-
-/// How alpha acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-enum Alpha {
-    Opaque,
-    Mask,
-    Blend,
-}
-
-impl Variant {
-    fn new(batch: &Batch, look: &Look) -> Self {
-        Self {
-            shading: look.shading,
-            alpha: match batch.alpha_mode {
-                AlphaMode::Opaque => Alpha::Opaque,
-                AlphaMode::Mask { .. } => Alpha::Mask,
-                AlphaMode::Blend => Alpha::Blend,
-            },
-            has_textures: batch.has_textures,
-            culls: match batch.faces {
-                Faces::Front => look.cull_back,
-                Faces::FrontOfTwins => true,
-                Faces::Both => false,
-            },
-        }
-    }
-}
 
 /// Surface pass.
 pub struct SurfacePass {
+    source: DirectSource,
     layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
     samples: u32,
     /// Made when they are first needed.
-    pipelines: HashMap<Variant, wgpu::RenderPipeline>,
+    pipelines: HashMap<(Variant, Option<Kinds>), wgpu::RenderPipeline>,
     /// Of bind group 3, where there is one.
     direct_layout: Option<wgpu::BindGroupLayout>,
 }
 
 /// Where direct light comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Direct {
+pub enum DirectSource {
     /// The vertices, as baked.
     Stored,
     /// A texture of irradiance, one value a pixel.
     Pixels,
     /// A texture of irradiance with several samples a pixel.
     Samples,
+    /// A few light samples, in the shadows of their maps.
+    Few,
 }
 
-impl Direct {
+/// The direct light itself, as [`DirectSource`] promised.
+pub enum Direct<'a> {
+    /// That of the vertices.
+    Stored,
+    /// Irradiance at the pixels or their samples.
+    Texture(&'a wgpu::TextureView),
+    /// Those light samples.
+    Few(&'a FewLights),
+}
+
+impl DirectSource {
     fn shader(self) -> &'static shaders::Shader {
         match self {
-            Direct::Stored => &shaders::SURFACE,
-            Direct::Pixels => &shaders::SURFACE_LIT,
-            Direct::Samples => &shaders::SURFACE_LIT_SAMPLES,
+            DirectSource::Stored => &shaders::SURFACE,
+            DirectSource::Pixels => &shaders::SURFACE_LIT,
+            DirectSource::Samples => &shaders::SURFACE_LIT_SAMPLES,
+            DirectSource::Few => &shaders::SURFACE_FEW_LIGHTS,
         }
     }
 
     fn layout(self, gpu: &Gpu) -> Option<wgpu::BindGroupLayout> {
-        let texture = wgpu::BindGroupLayoutEntry {
-            binding: 0,
-            visibility: wgpu::ShaderStages::FRAGMENT,
-            ty: wgpu::BindingType::Texture {
-                sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                view_dimension: wgpu::TextureViewDimension::D2,
-                multisampled: self == Direct::Samples,
-            },
-            count: None,
-        };
-        let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("direct irradiance"), entries: &[texture] };
-        (self != Direct::Stored).then(|| gpu.device.create_bind_group_layout(&descriptor))
+        match self {
+            DirectSource::Stored => None,
+            DirectSource::Pixels => Some(texture_layout(gpu, false)),
+            DirectSource::Samples => Some(texture_layout(gpu, true)),
+            DirectSource::Few => Some(few_lights::layout(gpu)),
+        }
     }
 }
 
+fn texture_layout(gpu: &Gpu, multisampled: bool) -> wgpu::BindGroupLayout {
+    let texture = wgpu::BindGroupLayoutEntry {
+        binding: 0,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Texture {
+            sample_type: wgpu::TextureSampleType::Float { filterable: false },
+            view_dimension: wgpu::TextureViewDimension::D2,
+            multisampled,
+        },
+        count: None,
+    };
+    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("direct irradiance"), entries: &[texture] };
+    gpu.device.create_bind_group_layout(&descriptor)
+}
+
 impl SurfacePass {
-    /// A pass for HDR targets with `samples` samples a pixel, and for direct light from `direct`.
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32, direct: Direct) -> Self {
-        let direct_layout = direct.layout(gpu);
-        let module = direct.shader().module(&gpu.device);
+    /// A pass for HDR targets with `samples` samples a pixel, and for direct light from `source`.
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32, source: DirectSource) -> Self {
+        let direct_layout = source.layout(gpu);
+        let module = source.shader().module(&gpu.device);
         let material = material_layout(gpu);
         let mut layouts = vec![Some(frame_layout), None, Some(&material)];
         layouts.extend(direct_layout.as_ref().map(Some));
@@ -146,10 +93,10 @@ impl SurfacePass {
             bind_group_layouts: &layouts,
             immediate_size: 0,
         });
-        Self { layout, module, samples, pipelines: HashMap::new(), direct_layout }
+        Self { source, layout, module, samples, pipelines: HashMap::new(), direct_layout }
     }
 
-    /// Clears the targets and draws the scene into them, its vertices in `light`; `direct` is the texture that [`Direct`] promised.
+    /// Clears the targets and draws the scene into them, its vertices in `light`.
     #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, targets) and what of it")]
     pub fn draw(
         &mut self,
@@ -160,14 +107,19 @@ impl SurfacePass {
         scene: &SceneBuffers,
         light: &wgpu::Buffer,
         look: &Look,
-        direct: Option<&wgpu::TextureView>,
+        direct: &Direct<'_>,
     ) {
-        for variant in scene.batches.iter().map(|batch| Variant::new(batch, look)) {
-            if !self.pipelines.contains_key(&variant) {
-                self.pipelines.insert(variant, self.pipeline(gpu, variant));
+        let kinds = match direct {
+            Direct::Few(lights) => Some(lights.kinds),
+            Direct::Stored | Direct::Texture(_) => None,
+        };
+        let variant = |batch: &Batch| (Variant::new(batch, look), kinds);
+        for needed in scene.batches.iter().map(variant) {
+            if !self.pipelines.contains_key(&needed) {
+                self.pipelines.insert(needed, self.pipeline(gpu, needed));
             }
         }
-        let direct = self.direct_layout.as_ref().zip(direct).map(|(layout, view)| bind_direct(gpu, layout, view));
+        let direct = self.bind(gpu, direct);
         let mut pass = begin(encoder, targets);
         if direct.is_some() {
             pass.set_bind_group(3, &direct, &[]);
@@ -179,36 +131,34 @@ impl SurfacePass {
             pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
         }
         for batch in &scene.batches {
-            pass.set_pipeline(&self.pipelines[&Variant::new(batch, look)]);
+            pass.set_pipeline(&self.pipelines[&variant(batch)]);
             pass.set_bind_group(2, &scene.materials[batch.material.index()], &[]);
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);
         }
     }
 
-    fn pipeline(&self, gpu: &Gpu, variant: Variant) -> wgpu::RenderPipeline {
-        let alpha = match variant.alpha {
-            Alpha::Opaque => &OPAQUE,
-            Alpha::Mask => &MASK,
-            Alpha::Blend => &BLEND,
-        };
-        let switch = |is_on: bool| f64::from(u8::from(is_on));
-        let constants = [
-            ("SHADING", f64::from(variant.shading.number())),
-            ("HAS_TEXTURES", switch(variant.has_textures)),
-            ("ALPHA_MODE", alpha.shader_mode),
-            ("ALPHA_TO_COVERAGE", switch(alpha.to_coverage && self.samples > 1)),
-            ("LIT_BY_LIGHTS", switch(self.direct_layout.is_some())),
-        ];
-        pipeline(gpu, &self.layout, &self.module, self.samples, alpha, &constants, variant.culls)
+    fn bind(&self, gpu: &Gpu, direct: &Direct<'_>) -> Option<wgpu::BindGroup> {
+        match direct {
+            Direct::Stored => None,
+            Direct::Few(lights) => Some(lights.bindings.clone()),
+            Direct::Texture(view) => self.direct_layout.as_ref().map(|layout| {
+                gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                    label: Some("direct irradiance"),
+                    layout,
+                    entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(view) }],
+                })
+            }),
+        }
     }
-}
 
-fn bind_direct(gpu: &Gpu, layout: &wgpu::BindGroupLayout, view: &wgpu::TextureView) -> wgpu::BindGroup {
-    gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-        label: Some("direct irradiance"),
-        layout,
-        entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(view) }],
-    })
+    fn pipeline(&self, gpu: &Gpu, (variant, kinds): (Variant, Option<Kinds>)) -> wgpu::RenderPipeline {
+        let mut constants: Vec<_> = kinds.iter().flat_map(Kinds::constants).collect();
+        if self.source == DirectSource::Few {
+            constants.push(("ONE_SAMPLE", f64::from(u8::from(self.samples == 1))));
+        }
+        constants.push(("LIT_BY_LIGHTS", f64::from(u8::from(self.source != DirectSource::Stored))));
+        variant.pipeline(gpu, &self.layout, &self.module, self.samples, constants)
+    }
 }
 
 /// Begins the pass with nothing drawn: no light, no coverage, infinitely far.
@@ -231,50 +181,5 @@ fn begin<'e>(encoder: &'e mut wgpu::CommandEncoder, targets: &Targets) -> wgpu::
             stencil_ops: None,
         }),
         ..Default::default()
-    })
-}
-
-fn pipeline(
-    gpu: &Gpu,
-    layout: &wgpu::PipelineLayout,
-    module: &wgpu::ShaderModule,
-    samples: u32,
-    alpha: &AlphaVariant,
-    constants: &[(&str, f64)],
-    culls: bool,
-) -> wgpu::RenderPipeline {
-    let compilation_options = wgpu::PipelineCompilationOptions { constants, ..Default::default() };
-    let cull_mode = culls.then_some(wgpu::Face::Back);
-    let target = wgpu::ColorTargetState { format: HDR_FORMAT, blend: alpha.blend, write_mask: wgpu::ColorWrites::ALL };
-    gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-        label: Some(&format!("surface, {}, {}", alpha.label, if culls { "culled" } else { "two-faced" })),
-        layout: Some(layout),
-        vertex: wgpu::VertexState {
-            module,
-            entry_point: Some("vertex"),
-            compilation_options: compilation_options.clone(),
-            buffers: &[Some(GpuVertex::LAYOUT), Some(WeightedLight::LAYOUT)],
-        },
-        primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
-        depth_stencil: Some(wgpu::DepthStencilState {
-            format: DEPTH_FORMAT,
-            depth_write_enabled: Some(alpha.writes_depth),
-            depth_compare: Some(wgpu::CompareFunction::Greater),
-            stencil: Default::default(),
-            bias: Default::default(),
-        }),
-        multisample: wgpu::MultisampleState {
-            count: samples,
-            alpha_to_coverage_enabled: alpha.to_coverage && samples > 1,
-            ..Default::default()
-        },
-        fragment: Some(wgpu::FragmentState {
-            module,
-            entry_point: Some("fragment"),
-            compilation_options,
-            targets: &[Some(target)],
-        }),
-        multiview_mask: None,
-        cache: None,
     })
 }

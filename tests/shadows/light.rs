@@ -3,9 +3,9 @@
 use glam::Vec3;
 use hemicube::baked::VertexLight;
 use hemicube::base::ids::GroupId;
-use hemicube::render::shadow::{Decisions, shadow_difference};
+use hemicube::render::shadow::{Batch, Decisions, shadow_difference};
 use hemicube::render::{ShadowSettings, ShadowTechnique};
-use hemicube::scene::{Material, builtin};
+use hemicube::scene::{Light, LightKind, Material, builtin};
 
 use super::stage::{SIZE, Shot, Stage, at, num_different, paint, settings};
 use crate::support::device::gpu;
@@ -58,6 +58,42 @@ fn direct_light_of_many_samples_is_that_of_the_closed_form() {
     let sum: Vec3 = samples.iter().map(|sample| sample.irradiance(floor, normal)).sum();
     let expected = Vec3::new(17.0, 12.0, 4.0) * std::f32::consts::PI * factor.abs();
     assert!((sum / expected - 1.0).abs().max_element() < 0.01, "{sum}, not {expected}");
+}
+
+#[test]
+fn the_surface_pass_adds_the_light_of_a_few_lamps_as_passes_of_their_own_do() {
+    let Some(gpu) = gpu() else { return };
+    let place = Vec3::new(-2.0, 3.0, 1.5);
+    let spot = LightKind::Spot { position: place, direction: -place.normalize(), inner_angle: 0.3, outer_angle: 0.6 };
+    let kinds = [
+        LightKind::Point { position: Vec3::new(2.0, 3.5, 0.0) },
+        LightKind::Directional { direction: Vec3::new(0.3, -1.0, -0.4).normalize() },
+        spot,
+    ];
+    let mut stage = Stage::new();
+    stage.cube(at(0.0, 1.0, 0.0), 0).sphere(Vec3::new(-1.6, 1.0, 0.3), 0.6);
+    let lamps = kinds.map(|kind| Light { kind, ..stage.scene.lights[0].clone() });
+    stage.scene.lights.extend(lamps);
+    for num_lamps in [4, 1] {
+        stage.scene.lights.truncate(num_lamps);
+        let shot = stage.shot(gpu);
+        for technique in [ShadowTechnique::Map, ShadowTechnique::None] {
+            let at_once = settings(technique);
+            let in_passes = ShadowSettings { batch: Some(Batch::whole(0)), ..at_once.clone() };
+            for samples in [1, 4] {
+                let [few, passes] = [&at_once, &in_passes].map(|settings| shot.picture(gpu, settings, samples));
+                let pairs = few.radiance.iter().zip(&passes.radiance);
+                let differs = |a: &f32, b: &f32| (a - b).abs() > 0.01 * b.max(0.1);
+                let differing = pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| differs(a, b))).count();
+                // Where several samples a pixel meet an edge, half floats are rounded elsewhere.
+                let allowed = if samples > 1 { few.radiance.len() / 5000 } else { 0 };
+                assert!(
+                    differing <= allowed,
+                    "{num_lamps} lamps, {technique:?}, {samples} samples a pixel: {differing}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

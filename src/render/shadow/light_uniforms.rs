@@ -17,7 +17,7 @@ const NARROWEST_RIM: f32 = 1e-3;
 /// `LightSample` of shaders/shared/light_sample.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
-struct LightUniform {
+pub struct LightUniform {
     place: Vec4,
     axis: Vec3,
     is_surface: f32,
@@ -29,7 +29,8 @@ struct LightUniform {
 }
 
 impl LightUniform {
-    fn new(sample: &LightSample, look: &Look) -> Self {
+    /// A sample, dimmed as `look` wants.
+    pub fn new(sample: &LightSample, look: &Look) -> Self {
         const NO_CONE: [f32; 2] = [0.0, 1.0];
         let (axis, cone) = match (sample.surface_normal, sample.light.kind) {
             (Some(normal), _) => (normal, NO_CONE),

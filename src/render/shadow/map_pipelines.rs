@@ -1,19 +1,36 @@
 //! How shadow maps are written and read: pipelines of casters, layouts of bindings.
 
+use wgpu::util::DeviceExt;
+
 use super::pipeline::{PipelineRecipe, nearest};
 use crate::gpu::Gpu;
 
 /// Of every map.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-fn entry(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
+/// A small buffer of numbers.
+pub fn uniform_buffer(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
+    let usage = wgpu::BufferUsages::UNIFORM;
+    gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("shadow map"), contents, usage })
+}
+
+/// An entry of a layout.
+pub fn entry(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
 }
 
-const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
+/// A uniform buffer.
+pub const UNIFORM: wgpu::BindingType = wgpu::BindingType::Buffer {
     ty: wgpu::BufferBindingType::Uniform,
     has_dynamic_offset: false,
     min_binding_size: None,
+};
+
+/// All faces of a map.
+pub const DEPTH_ARRAY: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Depth,
+    view_dimension: wgpu::TextureViewDimension::D2Array,
+    multisampled: false,
 };
 
 /// Layout of bind group 1 of the pass that draws a face.
@@ -26,16 +43,11 @@ pub fn face_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
 
 /// Layout of bind group 2 of the pass that reads the map.
 pub fn read_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let depth = wgpu::BindingType::Texture {
-        sample_type: wgpu::TextureSampleType::Depth,
-        view_dimension: wgpu::TextureViewDimension::D2Array,
-        multisampled: false,
-    };
     let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
     let read = wgpu::ShaderStages::FRAGMENT;
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("shadow map"),
-        entries: &[entry(0, read, UNIFORM), entry(1, read, depth), entry(2, read, sampler)],
+        entries: &[entry(0, read, UNIFORM), entry(1, read, DEPTH_ARRAY), entry(2, read, sampler)],
     })
 }
 

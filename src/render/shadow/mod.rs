@@ -21,6 +21,7 @@ mod cutout_shadow;
 mod depth_prepass;
 mod direct_light;
 mod exact_rays;
+pub mod few_lights;
 pub mod flattening;
 mod known_fault;
 mod light_targets;

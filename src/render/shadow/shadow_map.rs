@@ -3,12 +3,11 @@
 //! What a map shows is in `map_projection`, how texels are written and read in `map_pipelines`.
 
 use glam::Mat4;
-use wgpu::util::DeviceExt;
 
 use super::light_samples::LightSample;
 use super::map_cache::Shown;
-use super::map_pipelines::{face_layout, pipeline, read_layout};
-use super::map_projection::MapProjection;
+use super::map_pipelines::{DEPTH_FORMAT, face_layout, pipeline, read_layout, uniform_buffer};
+use super::map_projection::{MapProjection, MapUniform};
 use super::real_time::Subject;
 use super::solid::bind_mesh;
 use crate::gpu::material_buffers::material_layout;
@@ -43,6 +42,17 @@ pub struct ShadowMapPass {
     face_layout: wgpu::BindGroupLayout,
     read_layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
+    no_map: wgpu::TextureView,
+}
+
+/// A map that has been drawn.
+pub struct ReadableMap {
+    /// One, or six of a cube.
+    pub num_faces: u32,
+    /// What the pass that reads it needs to know.
+    pub uniform: MapUniform,
+    /// All faces.
+    pub depth: wgpu::TextureView,
 }
 
 impl ShadowMapPass {
@@ -69,6 +79,7 @@ impl ShadowMapPass {
             read_layout: read_layout(gpu),
             face_layout,
             sampler,
+            no_map: no_map(gpu),
         }
     }
 
@@ -77,16 +88,25 @@ impl ShadowMapPass {
         &self.read_layout
     }
 
-    /// Draws the map of a light sample, unless it is kept, and binds it for the pass that reads it; the number of its faces,
-    /// and the binding.
-    pub fn draw(
+    /// How maps are compared.
+    pub fn sampler(&self) -> &wgpu::Sampler {
+        &self.sampler
+    }
+
+    /// Stands where a map is bound and not read.
+    pub fn no_map(&self) -> &wgpu::TextureView {
+        &self.no_map
+    }
+
+    /// The map of a light sample, drawn unless it is kept.
+    pub fn map(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         subject: Subject<'_>,
         sample: &LightSample,
         settings: &MapSettings,
-    ) -> (u32, wgpu::BindGroup) {
+    ) -> ReadableMap {
         let projection = MapProjection::new(subject.shadows.scene(), sample, settings);
         let shown = Shown::new(subject.scene, &projection.projection_from_world, settings.resolution);
         let mut kept = subject.shadows.maps();
@@ -96,17 +116,31 @@ impl ShadowMapPass {
                 self.draw_face(gpu, encoder, subject, projection_from_world, face);
             }
         }
-        let uniform = uniform_buffer(gpu, bytemuck::bytes_of(&projection.uniform));
+        let num_faces = projection.projection_from_world.len() as u32;
+        ReadableMap { num_faces, uniform: projection.uniform, depth: map.all.clone() }
+    }
+
+    /// The map of a light sample, bound for the pass that reads it; the number of its faces, and the binding.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        subject: Subject<'_>,
+        sample: &LightSample,
+        settings: &MapSettings,
+    ) -> (u32, wgpu::BindGroup) {
+        let map = self.map(gpu, encoder, subject, sample, settings);
+        let uniform = uniform_buffer(gpu, bytemuck::bytes_of(&map.uniform));
         let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("shadow map"),
             layout: &self.read_layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&map.all) },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&map.depth) },
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.sampler) },
             ],
         });
-        (projection.projection_from_world.len() as u32, bindings)
+        (map.num_faces, bindings)
     }
 
     fn draw_face(
@@ -146,7 +180,18 @@ impl ShadowMapPass {
     }
 }
 
-fn uniform_buffer(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
-    let usage = wgpu::BufferUsages::UNIFORM;
-    gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("shadow map"), contents, usage })
+/// One texel.
+fn no_map(gpu: &Gpu) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("no shadow map"),
+        size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: DEPTH_FORMAT,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    let dimension = Some(wgpu::TextureViewDimension::D2Array);
+    texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() })
 }

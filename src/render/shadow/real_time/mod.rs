@@ -11,6 +11,7 @@ use crate::gpu::{Gpu, SceneBuffers, Stopwatch, shaders};
 use crate::render::shadow::cutout_shadow::CutoutShadowPass;
 use crate::render::shadow::depth_prepass::DepthPrepass;
 use crate::render::shadow::direct_light::{self, DirectLightPass, Lit, WHERE_UNSHADOWED};
+use crate::render::shadow::few_lights::FewLights;
 use crate::render::shadow::light_samples::LightSample;
 use crate::render::shadow::light_targets::LightTargets;
 use crate::render::shadow::light_uniforms::{LightUniforms, light_sample_layout};
@@ -149,6 +150,19 @@ impl RealTimeLight {
             self.add_sample(gpu, encoder, &targets, subject, settings, &lights, (index, sample));
         }
         self.targets.insert(targets).irradiance_view.clone()
+    }
+
+    /// The direct light of a picture for the surface pass to add itself, where that can.
+    pub fn few_lights(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        subject: Subject<'_>,
+        settings: &ShadowSettings,
+    ) -> Option<FewLights> {
+        let lights = FewLights::of(gpu, encoder, &self.maps, subject, settings);
+        lights.iter().for_each(|_| subject.lap(encoder, "shadow maps"));
+        lights
     }
 
     fn targets_of(&mut self, gpu: &Gpu, size: [u32; 2]) -> LightTargets {

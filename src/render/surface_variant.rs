@@ -1,0 +1,143 @@
+//! Pipelines of the surface pass: one for each kind of surface and each way to show it, so that shaders have no branches.
+
+use super::weighted_light::WeightedLight;
+use super::{Look, Shading};
+use crate::gpu::Gpu;
+use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex};
+use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT};
+use crate::scene::AlphaMode;
+
+/// Colour is premultiplied and coverage adds up under it.
+const PREMULTIPLIED: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
+
+/// A mask's samples are solid, but their alpha is the coverage of the pixel: it must not thin what lies behind.
+const KEEP_LARGER_ALPHA: wgpu::BlendState = wgpu::BlendState {
+    color: wgpu::BlendComponent::REPLACE,
+    alpha: wgpu::BlendComponent {
+        src_factor: wgpu::BlendFactor::One,
+        dst_factor: wgpu::BlendFactor::One,
+        operation: wgpu::BlendOperation::Max,
+    },
+};
+
+/// A kind of alpha as a pipeline knows it.
+struct AlphaVariant {
+    label: &'static str,
+    /// `ALPHA_MODE` of the shader.
+    shader_mode: f64,
+    blend: Option<wgpu::BlendState>,
+    writes_depth: bool,
+    to_coverage: bool,
+}
+
+const OPAQUE: AlphaVariant =
+    AlphaVariant { label: "opaque", shader_mode: 0.0, blend: None, writes_depth: true, to_coverage: false };
+const MASK: AlphaVariant = AlphaVariant {
+    label: "mask",
+    shader_mode: 1.0,
+    blend: Some(KEEP_LARGER_ALPHA),
+    writes_depth: true,
+    to_coverage: true,
+};
+const BLEND: AlphaVariant = AlphaVariant {
+    label: "blend",
+    shader_mode: 2.0,
+    blend: Some(PREMULTIPLIED),
+    writes_depth: false,
+    to_coverage: false,
+};
+
+/// What is fixed when a pipeline is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Variant {
+    shading: Shading,
+    alpha: Alpha,
+    has_textures: bool,
+    culls: bool,
+}
+
+/// How alpha acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Alpha {
+    Opaque,
+    Mask,
+    Blend,
+}
+
+impl Variant {
+    /// What a batch needs for a look.
+    pub fn new(batch: &Batch, look: &Look) -> Self {
+        Self {
+            shading: look.shading,
+            alpha: match batch.alpha_mode {
+                AlphaMode::Opaque => Alpha::Opaque,
+                AlphaMode::Mask { .. } => Alpha::Mask,
+                AlphaMode::Blend => Alpha::Blend,
+            },
+            has_textures: batch.has_textures,
+            culls: match batch.faces {
+                Faces::Front => look.cull_back,
+                Faces::FrontOfTwins => true,
+                Faces::Both => false,
+            },
+        }
+    }
+
+    /// The pipeline for targets with `samples` samples a pixel; `constants` are those of the direct light.
+    pub fn pipeline(
+        self,
+        gpu: &Gpu,
+        layout: &wgpu::PipelineLayout,
+        module: &wgpu::ShaderModule,
+        samples: u32,
+        mut constants: Vec<(&'static str, f64)>,
+    ) -> wgpu::RenderPipeline {
+        let alpha = match self.alpha {
+            Alpha::Opaque => &OPAQUE,
+            Alpha::Mask => &MASK,
+            Alpha::Blend => &BLEND,
+        };
+        let to_coverage = alpha.to_coverage && samples > 1;
+        constants.extend([
+            ("SHADING", f64::from(self.shading.number())),
+            ("HAS_TEXTURES", f64::from(u8::from(self.has_textures))),
+            ("ALPHA_MODE", alpha.shader_mode),
+            ("ALPHA_TO_COVERAGE", f64::from(u8::from(to_coverage))),
+        ]);
+        let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
+        let cull_mode = self.culls.then_some(wgpu::Face::Back);
+        let target =
+            wgpu::ColorTargetState { format: HDR_FORMAT, blend: alpha.blend, write_mask: wgpu::ColorWrites::ALL };
+        gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+            label: Some(&format!("surface, {}, {}", alpha.label, if self.culls { "culled" } else { "two-faced" })),
+            layout: Some(layout),
+            vertex: wgpu::VertexState {
+                module,
+                entry_point: Some("vertex"),
+                compilation_options: options.clone(),
+                buffers: &[Some(GpuVertex::LAYOUT), Some(WeightedLight::LAYOUT)],
+            },
+            primitive: wgpu::PrimitiveState { cull_mode, ..Default::default() },
+            depth_stencil: Some(wgpu::DepthStencilState {
+                format: DEPTH_FORMAT,
+                depth_write_enabled: Some(alpha.writes_depth),
+                depth_compare: Some(wgpu::CompareFunction::Greater),
+                stencil: Default::default(),
+                bias: Default::default(),
+            }),
+            multisample: wgpu::MultisampleState {
+                count: samples,
+                alpha_to_coverage_enabled: to_coverage,
+                ..Default::default()
+            },
+            fragment: Some(wgpu::FragmentState {
+                module,
+                entry_point: Some("fragment"),
+                compilation_options: options,
+                targets: &[Some(target)],
+            }),
+            multiview_mask: None,
+            cache: None,
+        })
+    }
+}
