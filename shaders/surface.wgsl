@@ -18,6 +18,9 @@ const PI: f32 = 3.14159265358979;
 const LARGEST_HALF: f32 = 65000.0;
 // Direct light comes from the lights themselves (shaders/direct_light.wgsl) and not from the vertices.
 override LIT_BY_LIGHTS: bool = false;
+// The target shows the radiance under the exposure of the frame, by this tone map; else it holds the radiance itself.
+override DISPLAYS: bool = false;
+override TONE_MAP: u32 = TONE_MAP_NEUTRAL;
 
 struct Vertex {
     @location(0) position: vec3f,
@@ -57,13 +60,16 @@ fn vertex(in: Vertex) -> Varying {
     return out;
 }
 
-// Colour of a fragment that receives `direct`, irradiance scaled by pre-exposure, beside the light of the vertices.
+// What the target is given of a fragment that receives `direct`, irradiance scaled by pre-exposure, beside the light of the vertices.
 fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> vec4f {
     let base = base_colour(in.colour, in.uv);
     let coverage = coverage(base.a);
     var radiance = shade(in, base.rgb, is_front, direct);
     // The back of a single-sided surface blocks light and sends none.
     radiance = select(radiance, vec3f(0.0), !is_front & (material.double_sided == 0u));
+    if DISPLAYS {
+        return displayed(tone_mapped(radiance * frame.exposure, TONE_MAP), in.position.xy);
+    }
     let stored = min(radiance * frame.pre_exposure, vec3f(LARGEST_HALF));
     // Blending is premultiplied; coverage of a mask acts through the samples instead.
     return vec4f(select(stored, stored * coverage, ALPHA_MODE == ALPHA_BLEND), coverage);

@@ -14,9 +14,10 @@ use hemicube::scene::{Scene, builtin};
 use hemicube::viewer::camera::Eye;
 use hemicube::viewer::memory::Memory;
 use hemicube::viewer::panels::{Facts, LightState, MeterFacts, Panels, Tab, theme};
-use wgpu::{CommandEncoderDescriptor, Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages};
+use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
 use crate::support::device::gpu;
+use crate::support::screen::screen;
 use crate::support::snapshot::assert_snapshot;
 
 const WINDOW: [u32; 2] = [1280, 720];
@@ -81,16 +82,7 @@ fn side_picture(gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Picture {
         TextureFormat::Rgba8Unorm,
         egui_wgpu::RendererOptions { dithering: false, ..Default::default() },
     );
-    let target = gpu.device.create_texture(&TextureDescriptor {
-        label: Some("panels"),
-        size: Extent3d { width: WINDOW[0], height: WINDOW[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: TextureDimension::D2,
-        format: TextureFormat::Rgba8Unorm,
-        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
+    let target = screen(gpu, WINDOW, TextureFormat::Rgba8Unorm);
     // Sizes settle in the first frames.
     for _ in 0..3 {
         let mut output = ctx.run_ui(input(Vec::new(), size), |ui| {

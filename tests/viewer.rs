@@ -7,10 +7,11 @@ use hemicube::base::ids::{GroupId, InstanceId};
 use hemicube::gpu::readback::read_texture;
 use hemicube::gpu::{Gpu, SceneBuffers};
 use hemicube::render::{Look, LuxScale, Mark, Overlay, OverlayPass, Picture, Shading, View, picture_of, turbo};
-use wgpu::{CommandEncoderDescriptor, Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages};
+use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
 use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, square_camera};
+use crate::support::screen::screen;
 
 const SIZE: u32 = 64;
 
@@ -67,16 +68,7 @@ fn a_line_lies_where_the_scale_is_cut() {
 fn marked(gpu: &Gpu, quads: &Quads, lines: &[Mark], triangles: &[Mark]) -> Picture {
     let look = false_colour(LuxScale { num_parts: 0, ..LuxScale::default() });
     let scene = SceneBuffers::new(gpu, &quads.baked);
-    let target = gpu.device.create_texture(&TextureDescriptor {
-        label: Some("marked"),
-        size: Extent3d { width: SIZE, height: SIZE, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: TextureDimension::D2,
-        format: TextureFormat::Rgba8Unorm,
-        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
+    let target = screen(gpu, [SIZE; 2], TextureFormat::Rgba8Unorm);
     let view = View::from_camera(&square_camera(), 1.0);
     let target_view = target.create_view(&Default::default());
     let mut renderer = hemicube::render::Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);

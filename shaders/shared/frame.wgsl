@@ -6,9 +6,6 @@
 
 const MAX_GROUPS: u32 = 8u;
 
-const TONE_MAP_NEUTRAL: u32 = 0u;
-const TONE_MAP_LINEAR: u32 = 1u;
-
 struct Frame {
     projection_from_world: mat4x4f,
     // Factor on the light of each group, rgb.

@@ -1,26 +1,30 @@
 //! The frame: the passes that make one picture, in order.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::frame_uniform::{frame_bind_group, frame_layout};
 use super::meter::Meter;
+use super::shadow::ShadowScene;
 use super::shadow::debug::DebugPass;
 use super::shadow::real_time::{RealTimeLight, Subject};
-use super::shadow::{ShadowScene, ShadowTechnique};
-use super::surface::{Direct, DirectSource, SurfacePass};
+use super::surface::{DirectSource, SurfacePass, SurfaceTargets};
 use super::tonemap::ToneMapPass;
 use super::weighted_light::WeightedLight;
 use super::{Look, View};
 use crate::gpu::readback::read_buffer;
 use crate::gpu::targets::Targets;
 use crate::gpu::{Gpu, GpuError, SceneBuffers, Stopwatch};
+use crate::scene::AlphaMode;
 
 /// Draws pictures of one output format.
 pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     weighted: WeightedLight,
-    surface: SurfacePass,
-    lit: Option<LitPasses>,
+    /// Made when they are first needed.
+    surfaces: HashMap<DirectSource, SurfacePass>,
+    /// Made for the first picture whose direct light comes from the lights.
+    live: Option<RealTimeLight>,
     shadows: Option<Arc<ShadowScene>>,
     /// Made when the first debug view is drawn.
     debug: Option<DebugPass>,
@@ -32,31 +36,7 @@ pub struct Renderer {
     output_format: wgpu::TextureFormat,
     samples: u32,
     targets: Option<Targets>,
-}
-
-/// Passes of pictures whose direct light comes from the lights; made when the first is drawn.
-struct LitPasses {
-    light: RealTimeLight,
-    surface: SurfacePass,
-    surface_traced: SurfacePass,
-    surface_few: SurfacePass,
-}
-
-impl LitPasses {
-    fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32) -> Self {
-        let surface = |source| SurfacePass::new(gpu, frame_layout, samples, source);
-        let direct = if samples > 1 { DirectSource::Samples } else { DirectSource::Pixels };
-        Self {
-            light: RealTimeLight::new(gpu, frame_layout, samples),
-            surface: surface(direct),
-            surface_traced: surface(DirectSource::Pixels),
-            surface_few: surface(DirectSource::Few),
-        }
-    }
-
-    fn surface(&mut self, technique: ShadowTechnique) -> &mut SurfacePass {
-        if technique == ShadowTechnique::Raytraced { &mut self.surface_traced } else { &mut self.surface }
-    }
+    keeps_radiance: bool,
 }
 
 impl Renderer {
@@ -65,9 +45,10 @@ impl Renderer {
     pub fn new(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32) -> Self {
         let frame_layout = frame_layout(gpu);
         Self {
-            surface: SurfacePass::new(gpu, &frame_layout, samples, DirectSource::Stored),
             weighted: WeightedLight::new(gpu, &frame_layout),
-            lit: None,
+            surfaces: HashMap::new(),
+            live: None,
+            keeps_radiance: false,
             shadows: None,
             debug: None,
             meter: Meter::new(gpu, &frame_layout),
@@ -88,7 +69,7 @@ impl Renderer {
             _ => false,
         };
         if !is_same {
-            self.lit.iter_mut().for_each(|lit| lit.light.forget());
+            self.live.iter_mut().for_each(RealTimeLight::forget);
             self.debug.iter_mut().for_each(DebugPass::forget);
         }
         self.shadows = shadows;
@@ -97,6 +78,11 @@ impl Renderer {
     /// Pictures without a fixed exposure take that which another renderer has metered last.
     pub fn follow_exposure(&mut self, other: &Self) {
         self.followed = Some(other.meter.exposure().clone());
+    }
+
+    /// [`Renderer::hdr`] holds the pictures that are drawn from now on.
+    pub(super) fn keep_radiance(&mut self) {
+        self.keeps_radiance = true;
     }
 
     /// Times the passes of the pictures that are drawn from now on.
@@ -118,8 +104,8 @@ impl Renderer {
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
         let seen = &scene.in_view(&view.frustum());
         let subject = Subject { frame: &frame, scene, seen, shadows, view, look, watch: self.watch.as_deref() };
-        let lit = self.lit.get_or_insert_with(|| LitPasses::new(gpu, &self.frame_layout, self.samples));
-        lit.light.draw(gpu, encoder, size, subject, settings);
+        let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
+        live.draw(gpu, encoder, size, subject, settings);
     }
 
     /// Records a picture of `scene` into the whole of `target`, which is `size` pixels wide and high.
@@ -141,7 +127,7 @@ impl Renderer {
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
 
         // The light of the vertices, each group as bright as wanted.
-        let light = self.weighted.of(gpu, encoder, &frame, scene, look);
+        let stored = self.weighted.of(gpu, encoder, &frame, scene, look).clone();
         let seen = &scene.in_view(&view.frustum());
         let subject = self.shadows.as_ref().map(|shadows| Subject {
             frame: &frame,
@@ -154,33 +140,33 @@ impl Renderer {
         });
         let lap =
             |encoder: &mut wgpu::CommandEncoder, name| self.watch.iter().for_each(|watch| watch.lap(encoder, name));
-        if let (Some(settings), Some(subject)) = (&look.shadows, subject) {
-            let lit = self.lit.get_or_insert_with(|| LitPasses::new(gpu, &self.frame_layout, self.samples));
-            if let Some(lights) = lit.light.few_lights(gpu, encoder, subject, settings) {
-                // Radiance from every visible point towards the eye: stored indirect light, and that of a few lights.
-                let direct = Direct::Few(&lights);
-                lit.surface_few.draw(gpu, encoder, &targets, &frame, seen, light, look, &direct);
-            } else {
-                // Direct irradiance from the lights themselves, each in its shadows.
-                let direct = lit.light.draw(gpu, encoder, size, subject, settings);
-                // Radiance from every visible point towards the eye: stored indirect light, and that direct light.
-                let surface = lit.surface(settings.technique);
-                surface.draw(gpu, encoder, &targets, &frame, seen, light, look, &Direct::Texture(&direct));
-            }
-        } else {
-            // Radiance from every visible point towards the eye, several samples a pixel, and their mean.
-            self.surface.draw(gpu, encoder, &targets, &frame, seen, light, look, &Direct::Stored);
-        }
+        // Light from the lights themselves, each in its shadows: their number and maps, or irradiance at the pixels.
+        let live = look.shadows.as_ref().zip(subject).map(|(settings, subject)| {
+            let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
+            live.draw(gpu, encoder, size, subject, settings)
+        });
+        // Light from every visible point towards the eye, several samples a pixel, and their mean.
+        let is_last = self.can_display_at_once(seen, look);
+        let onto = match is_last {
+            true => SurfaceTargets::display(target, self.output_format, &targets, look),
+            false => SurfaceTargets::radiance(&targets),
+        };
+        let source = DirectSource::of(live.as_ref());
+        let surface = self.surfaces.entry(source);
+        let surface = surface.or_insert_with(|| SurfacePass::new(gpu, &self.frame_layout, self.samples, source));
+        surface.draw(gpu, encoder, &onto, &frame, seen, look, &stored, live.as_ref());
         lap(encoder, "surfaces");
-        // The exposure that suits this picture, unless one is given.
-        if look.fixed_exposure().is_none() && self.followed.is_none() {
-            self.meter.draw(gpu, encoder, &targets, &frame);
-            lap(encoder, "light meter");
+        if !is_last {
+            // The exposure that suits this picture, unless one is given.
+            if look.fixed_exposure().is_none() && self.followed.is_none() {
+                self.meter.draw(gpu, encoder, &targets, &frame);
+                lap(encoder, "light meter");
+            }
+            // Exposure, tone curve, sRGB, dither.
+            let exposure = self.followed.as_ref().unwrap_or(self.meter.exposure());
+            self.tone_map.draw(gpu, encoder, &targets, &frame, exposure, target);
+            lap(encoder, "tone map");
         }
-        // Exposure, tone curve, sRGB, dither.
-        let exposure = self.followed.as_ref().unwrap_or(self.meter.exposure());
-        self.tone_map.draw(gpu, encoder, &targets, &frame, exposure, target);
-        lap(encoder, "tone map");
 
         // What shadows work with.
         if let (Some(debug), Some(subject)) = (look.shadow_debug, subject) {
@@ -189,6 +175,13 @@ impl Renderer {
         }
 
         self.targets = Some(targets);
+    }
+
+    /// Nothing needs the radiance but the screen, and what it shows of one point needs no other: the exposure is given, and
+    /// neither samples nor surfaces are blended.
+    fn can_display_at_once(&self, seen: &SceneBuffers, look: &Look) -> bool {
+        let blends = seen.batches.iter().any(|batch| batch.alpha_mode == AlphaMode::Blend);
+        !self.keeps_radiance && self.samples == 1 && look.fixed_exposure().is_some() && !blends
     }
 
     /// The exposure in stops that was metered last; none before a picture was metered. Blocks until it is drawn.
@@ -201,7 +194,7 @@ impl Renderer {
         Ok((factor > 0.0).then(|| factor.log2()))
     }
 
-    /// The linear picture that was drawn last, before exposure, scaled by [`SceneBuffers::pre_exposure`].
+    /// The linear picture that was drawn last where it is kept, before exposure, scaled by [`SceneBuffers::pre_exposure`].
     pub(super) fn hdr(&self) -> Option<&wgpu::Texture> {
         self.targets.as_ref().map(|targets| &targets.hdr)
     }

@@ -5,7 +5,7 @@ use glam::{Mat4, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
 use super::look::MAX_GROUPS;
-use super::{Look, ToneMap, View};
+use super::{Look, View};
 use crate::base::ids::GroupId;
 use crate::gpu::{Gpu, SceneBuffers};
 
@@ -62,13 +62,7 @@ struct ChoicesStorage {
 
 impl ChoicesStorage {
     fn new(scene: &SceneBuffers, look: &Look) -> Self {
-        Self {
-            tone_map: match look.tone_map_in_force() {
-                ToneMap::Neutral => 0,
-                ToneMap::Linear => 1,
-            },
-            num_groups: scene.num_groups() as u32,
-        }
+        Self { tone_map: look.tone_map_in_force().number(), num_groups: scene.num_groups() as u32 }
     }
 }
 

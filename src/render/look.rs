@@ -19,7 +19,7 @@ pub enum Exposure {
 }
 
 /// How radiance beyond white is shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ToneMap {
     /// Khronos PBR Neutral: true colours up to 0.8 of white, highlights roll off without a change of hue.
     Neutral,
@@ -104,6 +104,16 @@ impl Default for Look {
             background: Vec3::splat(0.02),
             metal_as_diffuse: true,
             cull_back: true,
+        }
+    }
+}
+
+impl ToneMap {
+    /// `TONE_MAP_...` of shaders/shared/display.wgsl.
+    pub(super) fn number(self) -> u32 {
+        match self {
+            ToneMap::Neutral => 0,
+            ToneMap::Linear => 1,
         }
     }
 }

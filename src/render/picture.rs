@@ -77,6 +77,7 @@ pub fn picture_in_light(
     check_size(gpu, size)?;
     let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, samples);
     renderer.cast_shadows(shadows);
+    renderer.keep_radiance();
     let target = display_target(gpu, size);
     let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });

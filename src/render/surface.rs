@@ -3,8 +3,10 @@
 use std::collections::HashMap;
 
 use super::Look;
-use super::shadow::few_lights::{self, FewLights, Kinds};
-use super::surface_variant::Variant;
+use super::shadow::few_lights::{self, Kinds};
+use super::shadow::real_time::LiveLight;
+use super::surface_variant::{Output, Variant};
+use crate::base::colour::srgb_from_linear;
 use crate::gpu::material_buffers::material_layout;
 use crate::gpu::scene_buffers::Batch;
 use crate::gpu::targets::Targets;
@@ -23,7 +25,7 @@ pub struct SurfacePass {
 }
 
 /// Where direct light comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DirectSource {
     /// The vertices, as baked.
     Stored,
@@ -35,17 +37,17 @@ pub enum DirectSource {
     Few,
 }
 
-/// The direct light itself, as [`DirectSource`] promised.
-pub enum Direct<'a> {
-    /// That of the vertices.
-    Stored,
-    /// Irradiance at the pixels or their samples.
-    Texture(&'a wgpu::TextureView),
-    /// Those light samples.
-    Few(&'a FewLights),
-}
-
 impl DirectSource {
+    /// Where it comes from with this light of the lights themselves.
+    pub fn of(live: Option<&LiveLight>) -> Self {
+        match live {
+            None => DirectSource::Stored,
+            Some(LiveLight::Pixels(_)) => DirectSource::Pixels,
+            Some(LiveLight::Samples(_)) => DirectSource::Samples,
+            Some(LiveLight::Few(_)) => DirectSource::Few,
+        }
+    }
+
     fn shader(self) -> &'static shaders::Shader {
         match self {
             DirectSource::Stored => &shaders::SURFACE,
@@ -61,6 +63,50 @@ impl DirectSource {
             DirectSource::Pixels => Some(texture_layout(gpu, false)),
             DirectSource::Samples => Some(texture_layout(gpu, true)),
             DirectSource::Few => Some(few_lights::layout(gpu)),
+        }
+    }
+}
+
+/// What is drawn into, all of one size.
+pub struct SurfaceTargets<'a> {
+    /// Radiance or what is displayed, as `output` says.
+    pub colour: &'a wgpu::TextureView,
+    /// Where the mean of the samples goes.
+    pub resolve: Option<&'a wgpu::TextureView>,
+    /// Depth.
+    pub depth: &'a wgpu::TextureView,
+    /// What is drawn.
+    pub output: Output,
+    /// Colour where nothing is seen.
+    pub background: wgpu::Color,
+}
+
+impl<'a> SurfaceTargets<'a> {
+    /// Radiance, with no light and no coverage where nothing is seen.
+    pub fn radiance(targets: &'a Targets) -> Self {
+        let (colour, resolve) = match &targets.samples {
+            Some(samples) => (samples, Some(&targets.hdr_view)),
+            None => (&targets.hdr_view, None),
+        };
+        let background = wgpu::Color::TRANSPARENT;
+        Self { colour, resolve, depth: &targets.depth, output: Output::Radiance, background }
+    }
+
+    /// What is displayed, with the background of `look`, into a target of `format`.
+    pub fn display(
+        target: &'a wgpu::TextureView,
+        format: wgpu::TextureFormat,
+        targets: &'a Targets,
+        look: &Look,
+    ) -> Self {
+        let encoded = |linear| if format.is_srgb() { linear } else { srgb_from_linear(linear) };
+        let [r, g, b] = look.background.to_array().map(|channel| f64::from(encoded(channel.clamp(0.0, 1.0))));
+        Self {
+            colour: target,
+            resolve: None,
+            depth: &targets.depth,
+            output: Output::Display(format, look.tone_map_in_force()),
+            background: wgpu::Color { r, g, b, a: 1.0 },
         }
     }
 }
@@ -81,7 +127,7 @@ fn texture_layout(gpu: &Gpu, multisampled: bool) -> wgpu::BindGroupLayout {
 }
 
 impl SurfacePass {
-    /// A pass for HDR targets with `samples` samples a pixel, and for direct light from `source`.
+    /// A pass for targets with `samples` samples a pixel, and for direct light from `source`.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32, source: DirectSource) -> Self {
         let direct_layout = source.layout(gpu);
         let module = source.shader().module(&gpu.device);
@@ -96,38 +142,38 @@ impl SurfacePass {
         Self { source, layout, module, samples, pipelines: HashMap::new(), direct_layout }
     }
 
-    /// Clears the targets and draws the scene into them, its vertices in `light`.
+    /// Clears the targets and draws the scene into them, its vertices in the light of `stored`.
     #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, targets) and what of it")]
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
-        targets: &Targets,
+        targets: &SurfaceTargets<'_>,
         frame: &wgpu::BindGroup,
         scene: &SceneBuffers,
-        light: &wgpu::Buffer,
         look: &Look,
-        direct: &Direct<'_>,
+        stored: &wgpu::Buffer,
+        live: Option<&LiveLight>,
     ) {
-        let kinds = match direct {
-            Direct::Few(lights) => Some(lights.kinds),
-            Direct::Stored | Direct::Texture(_) => None,
+        let kinds = match live {
+            Some(LiveLight::Few(lights)) => Some(lights.kinds),
+            _ => None,
         };
-        let variant = |batch: &Batch| (Variant::new(batch, look), kinds);
+        let variant = |batch: &Batch| (Variant::new(batch, look, targets.output), kinds);
         for needed in scene.batches.iter().map(variant) {
             if !self.pipelines.contains_key(&needed) {
                 self.pipelines.insert(needed, self.pipeline(gpu, needed));
             }
         }
-        let direct = self.bind(gpu, direct);
+        let live = live.and_then(|live| self.bind(gpu, live));
         let mut pass = begin(encoder, targets);
-        if direct.is_some() {
-            pass.set_bind_group(3, &direct, &[]);
+        if live.is_some() {
+            pass.set_bind_group(3, &live, &[]);
         }
         pass.set_bind_group(0, frame, &[]);
         if !scene.batches.is_empty() {
             pass.set_vertex_buffer(0, scene.vertices.slice(..));
-            pass.set_vertex_buffer(1, light.slice(..));
+            pass.set_vertex_buffer(1, stored.slice(..));
             pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
         }
         for batch in &scene.batches {
@@ -137,18 +183,18 @@ impl SurfacePass {
         }
     }
 
-    fn bind(&self, gpu: &Gpu, direct: &Direct<'_>) -> Option<wgpu::BindGroup> {
-        match direct {
-            Direct::Stored => None,
-            Direct::Few(lights) => Some(lights.bindings.clone()),
-            Direct::Texture(view) => self.direct_layout.as_ref().map(|layout| {
-                gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-                    label: Some("direct irradiance"),
-                    layout,
-                    entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(view) }],
-                })
-            }),
-        }
+    fn bind(&self, gpu: &Gpu, live: &LiveLight) -> Option<wgpu::BindGroup> {
+        let view = match live {
+            LiveLight::Few(lights) => return Some(lights.bindings.clone()),
+            LiveLight::Pixels(view) | LiveLight::Samples(view) => view,
+        };
+        self.direct_layout.as_ref().map(|layout| {
+            gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+                label: Some("direct irradiance"),
+                layout,
+                entries: &[wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(view) }],
+            })
+        })
     }
 
     fn pipeline(&self, gpu: &Gpu, (variant, kinds): (Variant, Option<Kinds>)) -> wgpu::RenderPipeline {
@@ -161,22 +207,18 @@ impl SurfacePass {
     }
 }
 
-/// Begins the pass with nothing drawn: no light, no coverage, infinitely far.
-fn begin<'e>(encoder: &'e mut wgpu::CommandEncoder, targets: &Targets) -> wgpu::RenderPass<'e> {
-    let (view, resolve_target) = match &targets.samples {
-        Some(samples) => (samples, Some(&targets.hdr_view)),
-        None => (&targets.hdr_view, None),
-    };
+/// Begins the pass with nothing drawn, infinitely far.
+fn begin<'e>(encoder: &'e mut wgpu::CommandEncoder, targets: &SurfaceTargets<'_>) -> wgpu::RenderPass<'e> {
     encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
         label: Some("surface"),
         color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view,
+            view: targets.colour,
             depth_slice: None,
-            resolve_target,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT), store: wgpu::StoreOp::Store },
+            resolve_target: targets.resolve,
+            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(targets.background), store: wgpu::StoreOp::Store },
         })],
         depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: &targets.depth,
+            view: targets.depth,
             depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
             stencil_ops: None,
         }),

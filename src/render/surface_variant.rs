@@ -1,7 +1,7 @@
 //! Pipelines of the surface pass: one for each kind of surface and each way to show it, so that shaders have no branches.
 
 use super::weighted_light::WeightedLight;
-use super::{Look, Shading};
+use super::{Look, Shading, ToneMap};
 use crate::gpu::Gpu;
 use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex};
 use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT};
@@ -54,6 +54,16 @@ pub struct Variant {
     alpha: Alpha,
     has_textures: bool,
     culls: bool,
+    output: Output,
+}
+
+/// What the pass writes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Output {
+    /// Radiance times pre-exposure, into [`HDR_FORMAT`].
+    Radiance,
+    /// What the screen shows of it, into a format of the screen.
+    Display(wgpu::TextureFormat, ToneMap),
 }
 
 /// How alpha acts.
@@ -66,7 +76,7 @@ enum Alpha {
 
 impl Variant {
     /// What a batch needs for a look.
-    pub fn new(batch: &Batch, look: &Look) -> Self {
+    pub fn new(batch: &Batch, look: &Look, output: Output) -> Self {
         Self {
             shading: look.shading,
             alpha: match batch.alpha_mode {
@@ -80,6 +90,7 @@ impl Variant {
                 Faces::FrontOfTwins => true,
                 Faces::Both => false,
             },
+            output,
         }
     }
 
@@ -104,10 +115,18 @@ impl Variant {
             ("ALPHA_MODE", alpha.shader_mode),
             ("ALPHA_TO_COVERAGE", f64::from(u8::from(to_coverage))),
         ]);
+        let format = match self.output {
+            Output::Radiance => HDR_FORMAT,
+            Output::Display(format, tone_map) => {
+                let encodes = f64::from(u8::from(format.is_srgb()));
+                let tone_map = f64::from(tone_map.number());
+                constants.extend([("DISPLAYS", 1.0), ("TARGET_ENCODES", encodes), ("TONE_MAP", tone_map)]);
+                format
+            }
+        };
         let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let cull_mode = self.culls.then_some(wgpu::Face::Back);
-        let target =
-            wgpu::ColorTargetState { format: HDR_FORMAT, blend: alpha.blend, write_mask: wgpu::ColorWrites::ALL };
+        let target = wgpu::ColorTargetState { format, blend: alpha.blend, write_mask: wgpu::ColorWrites::ALL };
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(&format!("surface, {}, {}", alpha.label, if self.culls { "culled" } else { "two-faced" })),
             layout: Some(layout),

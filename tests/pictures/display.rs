@@ -8,11 +8,12 @@ use hemicube::gpu::readback::read_texture;
 use hemicube::gpu::{Gpu, SceneBuffers};
 use hemicube::render::{Exposure, Look, Picture, Raster, Renderer, ToneMap, View, picture};
 use hemicube::scene::Material;
-use wgpu::{CommandEncoderDescriptor, Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages};
+use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
 use super::stage::{SIZE, display_at, draw, four_texels, plain};
 use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, square_camera};
+use crate::support::screen::screen;
 
 #[test]
 fn exposure_is_a_power_of_two_and_the_display_is_srgb() {
@@ -130,16 +131,7 @@ fn draw_two_into(gpu: &Gpu, format: TextureFormat, quads: &Quads) -> Vec<u8> {
     let view = View::from_camera(&square_camera(), 1.0);
     let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
     let targets = [0.0, -2.0].map(|ev| {
-        let target = gpu.device.create_texture(&TextureDescriptor {
-            label: None,
-            size: Extent3d { width: SIZE, height: SIZE, depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: TextureDimension::D2,
-            format,
-            usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let target = screen(gpu, [SIZE; 2], format);
         let look = Look { exposure: Exposure::Ev(ev), ..plain() };
         renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), [SIZE; 2], &scene, &view, &look);
         target

@@ -1,5 +1,6 @@
 //! Pictures that the GPU draws, held against what they must show.
 
+mod at_once;
 mod display;
 mod files;
 mod radiance;

@@ -4,32 +4,19 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
-use hemicube::gpu::readback::read_texture;
 use hemicube::gpu::{Gpu, SceneBuffers};
 use hemicube::render::{Look, Renderer, View};
-use wgpu::{CommandEncoderDescriptor, Extent3d, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages};
+use wgpu::TextureFormat;
 
 use super::stage::{SIZE, plain};
 use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, square_camera};
+use crate::support::screen::displayed;
 
 /// Display value of the middle, red, of one picture after the other by the same renderer.
 fn red(gpu: &Gpu, renderer: &mut Renderer, scene: &SceneBuffers, look: &Look) -> u8 {
-    let target = gpu.device.create_texture(&TextureDescriptor {
-        label: None,
-        size: Extent3d { width: SIZE, height: SIZE, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: TextureDimension::D2,
-        format: TextureFormat::Rgba8Unorm,
-        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
-        view_formats: &[],
-    });
     let view = View::from_camera(&square_camera(), 1.0);
-    let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), [SIZE; 2], scene, &view, look);
-    gpu.queue.submit([encoder.finish()]);
-    read_texture(gpu, &target, 4).expect("a picture")[(4 * (SIZE * SIZE / 2 + SIZE / 2)) as usize]
+    displayed(gpu, renderer, [SIZE; 2], scene, &view, look)[(4 * (SIZE * SIZE / 2 + SIZE / 2)) as usize]
 }
 
 /// White paint whose group `group` alone brings radiance 0.5, half of it direct.

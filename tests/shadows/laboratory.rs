@@ -11,6 +11,7 @@ use hemicube::scene::{Instance, Light, LightKind, Material};
 
 use super::stage::{SIZE, Shot, Stage, at, paint, settings};
 use crate::support::device::gpu;
+use crate::support::screen::screen;
 
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
@@ -34,16 +35,7 @@ impl Easel {
     fn new(gpu: &Gpu, shot: &Shot) -> Self {
         let mut renderer = Renderer::new(gpu, FORMAT, 1);
         renderer.cast_shadows(Some(Arc::clone(&shot.shadows)));
-        let target = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("easel"),
-            size: wgpu::Extent3d { width: SIZE[0], height: SIZE[1], depth_or_array_layers: 1 },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-            view_formats: &[],
-        });
+        let target = screen(gpu, SIZE, FORMAT);
         Self { renderer, target, view: View::from_camera(&shot.camera, SIZE[0] as f32 / SIZE[1] as f32) }
     }
 

@@ -3,4 +3,5 @@
 pub mod device;
 pub mod quads;
 pub mod scenes;
+pub mod screen;
 pub mod snapshot;

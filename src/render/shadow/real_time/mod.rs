@@ -58,6 +58,16 @@ impl Subject<'_> {
     }
 }
 
+/// The direct light of a picture as the surface pass takes it.
+pub enum LiveLight {
+    /// Light samples that it adds itself.
+    Few(FewLights),
+    /// Irradiance times pre-exposure, one value a pixel.
+    Pixels(wgpu::TextureView),
+    /// The same with as many samples a pixel as the picture.
+    Samples(wgpu::TextureView),
+}
+
 /// Where at least two planar shadows overlap.
 const PLANAR_TWICE: Lit = Lit {
     read_mask: SHADOWS,
@@ -119,8 +129,7 @@ impl RealTimeLight {
         self.volumes.forget();
     }
 
-    /// Records the direct light of a picture of `size` pixels: a texture of irradiance times pre-exposure, with as many
-    /// samples a pixel as the picture, with one where it is ray-traced.
+    /// Records the direct light of a picture of `size` pixels.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -128,12 +137,17 @@ impl RealTimeLight {
         size: [u32; 2],
         subject: Subject<'_>,
         settings: &ShadowSettings,
-    ) -> wgpu::TextureView {
+    ) -> LiveLight {
+        if let Some(lights) = FewLights::of(gpu, encoder, &self.maps, subject, settings) {
+            subject.lap(encoder, "shadow maps");
+            return LiveLight::Few(lights);
+        }
         let samples = settings.samples(subject.shadows.scene());
         let goes_on = settings.batch.is_some_and(|batch| !batch.is_first());
         if settings.technique == ShadowTechnique::Raytraced {
             let raytraced = &mut self.raytraced;
-            return subject.work("rays, on the processor", || raytraced.draw(gpu, size, subject, &samples, goes_on));
+            let draw = || raytraced.draw(gpu, size, subject, &samples, goes_on);
+            return LiveLight::Pixels(subject.work("rays, on the processor", draw));
         }
         let targets = self.targets_of(gpu, size);
         let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
@@ -149,20 +163,8 @@ impl RealTimeLight {
         for (index, sample) in samples.iter().enumerate() {
             self.add_sample(gpu, encoder, &targets, subject, settings, &lights, (index, sample));
         }
-        self.targets.insert(targets).irradiance_view.clone()
-    }
-
-    /// The direct light of a picture for the surface pass to add itself, where that can.
-    pub fn few_lights(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        subject: Subject<'_>,
-        settings: &ShadowSettings,
-    ) -> Option<FewLights> {
-        let lights = FewLights::of(gpu, encoder, &self.maps, subject, settings);
-        lights.iter().for_each(|_| subject.lap(encoder, "shadow maps"));
-        lights
+        let irradiance = self.targets.insert(targets).irradiance_view.clone();
+        if self.samples > 1 { LiveLight::Samples(irradiance) } else { LiveLight::Pixels(irradiance) }
     }
 
     fn targets_of(&mut self, gpu: &Gpu, size: [u32; 2]) -> LightTargets {

@@ -1,0 +1,69 @@
+//! Pictures that the surface pass displays at once, against those that are made of radiance.
+
+use std::sync::Arc;
+
+use glam::Vec3;
+use hemicube::baked::{BakedScene, VertexLight};
+use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::{
+    Exposure, Look, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View, picture_in_light,
+};
+use hemicube::scene::{AlphaMode, Scene, builtin};
+use wgpu::TextureFormat;
+
+use crate::support::device::gpu;
+use crate::support::screen::displayed;
+
+const SIZE: [u32; 2] = [160, 90];
+
+/// How many pixels differ by more than a step of eight bits, and how many are neither black nor white.
+fn compare(gpu: &Gpu, scene: &Scene, look: &Look) -> [usize; 2] {
+    let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
+    let buffers = SceneBuffers::new(gpu, &BakedScene { scene: scene.clone(), light });
+    let shadows = Arc::new(ShadowScene::new(gpu, Arc::new(scene.clone())));
+    let camera = &scene.cameras[0];
+    let of_radiance = picture_in_light(gpu, &buffers, Some(Arc::clone(&shadows)), camera, SIZE, look, 1);
+    let of_radiance = of_radiance.expect("a picture").display;
+    let mut renderer = Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
+    renderer.cast_shadows(Some(shadows));
+    let view = View::from_camera(camera, SIZE[0] as f32 / SIZE[1] as f32);
+    let at_once = displayed(gpu, &mut renderer, SIZE, &buffers, &view, look);
+    let pixels = at_once.as_chunks::<4>().0.iter().zip(of_radiance.as_chunks::<4>().0);
+    let differing = pixels.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 1)).count();
+    let grey = at_once.as_chunks::<4>().0.iter().filter(|pixel| !matches!(pixel[..3], [0, 0, 0] | [255, 255, 255]));
+    [differing, grey.count()]
+}
+
+#[test]
+fn what_is_displayed_at_once_is_what_is_made_of_radiance() {
+    let Some(gpu) = gpu() else { return };
+    let gallery = builtin::gallery();
+    let plain = Look { exposure: Exposure::Ev(1.0), ambient: Vec3::splat(0.2), ..Look::default() };
+    let shadows = |technique| Some(ShadowSettings::new(technique));
+    let looks = [
+        plain.clone(),
+        Look { tone_map: ToneMap::Linear, ..plain.clone() },
+        Look { shading: Shading::FalseColour, ..plain.clone() },
+        Look { shading: Shading::Albedo, ..plain.clone() },
+        Look { shading: Shading::Normals, ..plain.clone() },
+        Look { shadows: shadows(ShadowTechnique::Map), exposure: Exposure::Ev(-4.0), ..plain.clone() },
+        Look { shadows: shadows(ShadowTechnique::VolumeDepthFail), exposure: Exposure::Ev(-4.0), ..plain.clone() },
+    ];
+    for look in looks {
+        let [differing, grey] = compare(gpu, &gallery, &look);
+        let name = (look.shading, look.tone_map, look.shadows.map(|shadows| shadows.technique));
+        assert!(differing == 0 && grey > 10_000, "{name:?}: {differing} pixels differ, {grey} are grey");
+    }
+}
+
+#[test]
+fn glass_is_mixed_before_it_is_tone_mapped() {
+    let Some(gpu) = gpu() else { return };
+    let mut scene = builtin::gallery();
+    for material in &mut scene.materials {
+        material.alpha_mode = AlphaMode::Blend;
+        material.base_colour.w = 0.5;
+    }
+    let look = Look { exposure: Exposure::Ev(3.0), ambient: Vec3::splat(0.2), ..Look::default() };
+    assert_eq!(compare(gpu, &scene, &look)[0], 0);
+}

@@ -1,0 +1,38 @@
+//! What stands for the screen: a texture that pictures are displayed in.
+
+use hemicube::gpu::readback::read_texture;
+use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::{Look, Renderer, View};
+use wgpu::{
+    CommandEncoderDescriptor, Extent3d, Texture, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
+};
+
+/// A screen of `size` pixels.
+pub fn screen(gpu: &Gpu, size: [u32; 2], format: TextureFormat) -> Texture {
+    gpu.device.create_texture(&TextureDescriptor {
+        label: Some("screen"),
+        size: Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: TextureDimension::D2,
+        format,
+        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
+        view_formats: &[],
+    })
+}
+
+/// RGBA bytes of one picture by a renderer into [`TextureFormat::Rgba8Unorm`].
+pub fn displayed(
+    gpu: &Gpu,
+    renderer: &mut Renderer,
+    size: [u32; 2],
+    scene: &SceneBuffers,
+    view: &View,
+    look: &Look,
+) -> Vec<u8> {
+    let target = screen(gpu, size, TextureFormat::Rgba8Unorm);
+    let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, scene, view, look);
+    gpu.queue.submit([encoder.finish()]);
+    read_texture(gpu, &target, 4).expect("a picture")
+}
