@@ -5,7 +5,8 @@
 @fragment
 fn fragment(in: VisiblePoint, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
     let facet = facet_normal(in.middle);
-    let received = irradiance(light, in.point, seen_normal(in.normal, is_front));
+    let arrival = arrival(light, in.point);
+    let received = irradiance(light, arrival, seen_normal(in.normal, is_front));
     if all(received <= vec3f(0.0)) {
         discard;
     }

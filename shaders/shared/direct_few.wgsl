@@ -14,7 +14,7 @@ override ONE_SAMPLE: bool = false;
 
 @group(3) @binding(0) var<uniform> lights: array<LightSample, MAX_LIGHTS>;
 @group(3) @binding(1) var<uniform> shadow_maps: array<ShadowMap, MAX_LIGHTS>;
-@group(3) @binding(2) var map_sampler: sampler_comparison;
+@group(3) @binding(2) var map_sampler: sampler;
 // Bound more than once where there are fewer.
 @group(3) @binding(3) var map_0: texture_depth_2d_array;
 @group(3) @binding(4) var map_1: texture_depth_2d_array;
@@ -54,9 +54,10 @@ struct Receiver {
 
 fn received(index: u32, map: texture_depth_2d_array, is_cube: bool, at: Receiver) -> vec3f {
     let light = lights[index];
-    let received = irradiance(light, at.point, at.normal);
+    let arrival = arrival(light, at.point);
+    let received = irradiance(light, arrival, at.normal);
     if !HAS_MAPS {
         return received;
     }
-    return received * seen_share(light, shadow_maps[index], map, map_sampler, is_cube, at.point, at.facet);
+    return received * seen_share(light, arrival, shadow_maps[index], map, map_sampler, is_cube, at.point, at.facet);
 }

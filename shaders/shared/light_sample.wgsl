@@ -22,15 +22,24 @@ struct LightSample {
     padding: vec2f,
 }
 
-fn irradiance(light: LightSample, point: vec3f, normal: vec3f) -> vec3f {
+// How light arrives at a point.
+struct Arrival {
+    // Unit.
+    to_light: vec3f,
+    // 1 / m.
+    inverse_distance: f32,
+}
+
+fn arrival(light: LightSample, point: vec3f) -> Arrival {
     let offset = light.place.xyz - light.place.w * point;
-    let square = max(dot(offset, offset), SHORTEST_SQUARE);
-    let to_light = offset * inverseSqrt(square);
-    let cosine = dot(normal, to_light);
-    if cosine <= GRAZING_COSINE {
-        return vec3f(0.0);
-    }
-    return light.intensity * (cosine * emitted_share(light, to_light) * falloff(light, square));
+    let inverse_distance = inverseSqrt(max(dot(offset, offset), SHORTEST_SQUARE));
+    return Arrival(offset * inverse_distance, inverse_distance);
+}
+
+fn irradiance(light: LightSample, arrival: Arrival, normal: vec3f) -> vec3f {
+    let cosine = dot(normal, arrival.to_light);
+    let share = cosine * emitted_share(light, arrival.to_light) * falloff(light, arrival.inverse_distance);
+    return light.intensity * select(0.0, share, cosine > GRAZING_COSINE);
 }
 
 fn emitted_share(light: LightSample, to_light: vec3f) -> f32 {
@@ -40,7 +49,8 @@ fn emitted_share(light: LightSample, to_light: vec3f) -> f32 {
     return select(in_cone * in_cone, from_surface, light.is_surface > 0.0);
 }
 
-fn falloff(light: LightSample, square: f32) -> f32 {
-    let share = square * light.inverse_square_range;
-    return select(1.0, saturate(1.0 - share * share) / square, light.place.w > 0.0);
+fn falloff(light: LightSample, inverse_distance: f32) -> f32 {
+    let inverse_square = inverse_distance * inverse_distance;
+    let share = light.inverse_square_range / inverse_square;
+    return select(1.0, saturate(1.0 - share * share) * inverse_square, light.place.w > 0.0);
 }

@@ -22,6 +22,7 @@ pub struct Kinds {
     has_maps: bool,
     is_cube: [bool; MAX_LIGHTS],
     pcf_radius: u32,
+    has_normal_offset: bool,
 }
 
 impl Kinds {
@@ -33,6 +34,7 @@ impl Kinds {
             ("NUM_LIGHTS", self.num_lights as f64),
             ("HAS_MAPS", switch(self.has_maps)),
             ("PCF_RADIUS", f64::from(self.pcf_radius)),
+            ("HAS_NORMAL_OFFSET", switch(self.has_normal_offset)),
         ];
         numbers.into_iter().chain(cubes).collect()
     }
@@ -78,6 +80,7 @@ impl FewLights {
             has_maps,
             is_cube: [false; MAX_LIGHTS],
             pcf_radius: settings.maps.pcf_radius,
+            has_normal_offset: settings.maps.normal_offset > 0.0,
         };
         let mut lights = [LightUniform::zeroed(); MAX_LIGHTS];
         let mut projections = [MapUniform::zeroed(); MAX_LIGHTS];
@@ -112,8 +115,8 @@ impl FewLights {
 /// Layout of bind group 3 of the surface pass.
 pub fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let read = wgpu::ShaderStages::FRAGMENT;
-    let compared = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
-    let mut entries = vec![entry(0, read, UNIFORM), entry(1, read, UNIFORM), entry(2, read, compared)];
+    let gathered = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
+    let mut entries = vec![entry(0, read, UNIFORM), entry(1, read, UNIFORM), entry(2, read, gathered)];
     entries.extend((3..).take(MAX_LIGHTS).map(|binding| entry(binding, read, DEPTH_ARRAY)));
     gpu.device
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("few lights"), entries: &entries })

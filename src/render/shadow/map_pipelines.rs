@@ -43,7 +43,7 @@ pub fn face_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
 
 /// Layout of bind group 2 of the pass that reads the map.
 pub fn read_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Comparison);
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
     let read = wgpu::ShaderStages::FRAGMENT;
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("shadow map"),

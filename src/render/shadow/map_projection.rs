@@ -7,7 +7,7 @@
 use bytemuck::{Pod, Zeroable};
 use glam::camera::rh::proj::directx;
 use glam::camera::rh::view::look_to_mat4;
-use glam::{Mat4, Vec3, Vec3Swizzles};
+use glam::{Mat4, Vec2, Vec3, Vec3Swizzles};
 
 use super::light_samples::LightSample;
 use super::shadow_map::MapSettings;
@@ -30,6 +30,9 @@ const WIDEST_SPOT: f32 = 1.2;
 /// Texels beyond the edge of a face for interpolation.
 const BORDER: f32 = 2.0;
 
+/// Depths are rounded by a few of these: of the whole range where rays are parallel, else of the depth itself.
+const ROUNDING: f32 = 2e-5;
+
 /// What the map of a light sample shows of a scene.
 pub struct MapProjection {
     /// Of each face: one, or six of a cube.
@@ -47,9 +50,13 @@ pub struct MapUniform {
     half_width: f32,
     near: f32,
     texel: f32,
+    resolution: f32,
+    inverse_resolution: f32,
     normal_offset: f32,
     slope_bias: f32,
-    padding: [u32; 7],
+    padding: u32,
+    rounding: Vec2,
+    padding_to_16: [u32; 2],
 }
 
 impl MapProjection {
@@ -72,15 +79,20 @@ impl MapProjection {
                 (FACES.map(face).to_vec(), half_width)
             }
         };
+        let is_parallel = matches!(sample.light.kind, LightKind::Directional { .. });
         let uniform = MapUniform {
             projection_from_world: projection_from_world[0],
             plane_from_world: projection_from_world[0].inverse().transpose(),
             half_width,
             near,
             texel: 2.0 * half_width / resolution,
+            resolution,
+            inverse_resolution: 1.0 / resolution,
             normal_offset: settings.normal_offset,
             slope_bias: settings.slope_bias,
-            padding: [0; 7],
+            padding: 0,
+            rounding: ROUNDING * if is_parallel { Vec2::X } else { Vec2::Y },
+            padding_to_16: [0; 2],
         };
         Self { projection_from_world, uniform }
     }
@@ -124,7 +136,7 @@ mod tests {
     fn the_uniform_is_as_long_as_the_shader_reads_it() {
         let layout = struct_layout(&DIRECT_LIGHT_MAP, "ShadowMap");
         assert_eq!(layout.last(), Some(&size_of::<MapUniform>()));
-        assert_eq!(layout[6], std::mem::offset_of!(MapUniform, slope_bias));
+        assert_eq!(layout[8], std::mem::offset_of!(MapUniform, slope_bias));
     }
 
     #[test]

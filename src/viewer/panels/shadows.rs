@@ -149,7 +149,7 @@ fn map_ui(ui: &mut Ui, maps: &mut MapSettings) {
     ui.add(Slider::new(&mut maps.slope_bias, 0.0..=8.0).text("bias, texels"))
         .on_hover_text("Too little: acne. Too much: shadows come off their casters");
     ui.add(Slider::new(&mut maps.normal_offset, 0.0..=8.0).text("normal offset, texels"))
-        .on_hover_text("Too little: acne. Too much: light leaks through thin walls");
+        .on_hover_text("Another cure of acne. Too much: light leaks through thin walls");
 }
 
 fn depth_pass_ui(ui: &mut Ui, volumes: &mut VolumeSettings) {
