@@ -20,7 +20,7 @@ use hemicube::scene::{Camera, Light, LightKind, Scene, builtin, gltf};
 
 const SIZE: [u32; 2] = [1280, 720];
 /// Frames of which the best counts.
-const FRAMES: usize = 4;
+const FRAMES: usize = 8;
 
 const TECHNIQUES: [(ShadowTechnique, &str); 6] = [
     (ShadowTechnique::None, "none"),

@@ -14,7 +14,7 @@ use crate::base::sampling::{cosine_hemisphere, hash};
 use crate::trace::{Hit, Tracer};
 
 /// Independent estimates at a point, from whose scatter the standard error follows.
-const NUM_BATCHES: u32 = 16;
+const NUM_BATCHES: u32 = 32;
 
 /// Distance within which a point's surface is looked for, as a share of the scene's extent.
 const REACH: f32 = 1e-4;
