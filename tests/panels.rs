@@ -12,8 +12,10 @@ use hemicube::patch::MeshSettings;
 use hemicube::render::{Picture, Shading};
 use hemicube::scene::{Scene, builtin};
 use hemicube::viewer::camera::Eye;
+use hemicube::viewer::kept_side::KeptSide;
 use hemicube::viewer::memory::Memory;
 use hemicube::viewer::panels::{Facts, LightState, MeterFacts, Panels, Tab, theme};
+use hemicube::viewer::screen::PanelShapes;
 use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
 use crate::support::device::gpu;
@@ -72,31 +74,43 @@ fn input(events: Vec<Event>, size: Vec2) -> RawInput {
     RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), events, ..RawInput::default() }
 }
 
-/// The side panel as it is drawn.
-fn side_picture(gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Picture {
-    let ctx = egui::Context::default();
-    theme::apply(&ctx);
-    let size = WINDOW.map(|side| side as f32).into();
-    let mut painter = egui_wgpu::Renderer::new(
-        &gpu.device,
-        TextureFormat::Rgba8Unorm,
-        egui_wgpu::RendererOptions { dithering: false, ..Default::default() },
-    );
-    let target = screen(gpu, WINDOW, TextureFormat::Rgba8Unorm);
-    // Sizes settle in the first frames.
-    for _ in 0..3 {
-        let mut output = ctx.run_ui(input(Vec::new(), size), |ui| {
-            panels.ui(ui, facts);
-        });
+/// Panels on a screen of their own, painted anew each time or with a side that is kept.
+struct Sheet {
+    ctx: egui::Context,
+    painter: egui_wgpu::Renderer,
+    target: wgpu::Texture,
+    kept: Option<KeptSide>,
+}
+
+impl Sheet {
+    fn new(gpu: &Gpu, kept: Option<KeptSide>) -> Self {
+        let ctx = egui::Context::default();
+        theme::apply(&ctx);
+        let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
+        let painter = egui_wgpu::Renderer::new(&gpu.device, TextureFormat::Rgba8Unorm, options);
+        Self { ctx, painter, target: screen(gpu, WINDOW, TextureFormat::Rgba8Unorm), kept }
+    }
+
+    /// RGBA bytes of the next frame.
+    fn frame(&mut self, gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Vec<u8> {
+        let size = WINDOW.map(|side| side as f32).into();
+        let mut free = Rect::ZERO;
+        let output = self.ctx.run_ui(input(Vec::new(), size), |ui| (_, free) = panels.ui(ui, facts));
         for (&id, deltas) in &output.textures_delta.set {
-            deltas.iter().for_each(|delta| painter.update_texture(&gpu.device, &gpu.queue, id, delta));
+            deltas.iter().for_each(|delta| self.painter.update_texture(&gpu.device, &gpu.queue, id, delta));
         }
-        output.textures_delta.clear();
-        let shapes = ctx.tessellate(std::mem::take(&mut output.shapes), output.pixels_per_point);
+        let mut shapes = PanelShapes {
+            primitives: self.ctx.tessellate(output.shapes, output.pixels_per_point),
+            textures: output.textures_delta,
+            pixels_per_point: 1.0,
+            side: Rect::from_min_max(Pos2::new(free.right(), 0.0), Pos2::new(size.x, free.bottom())),
+            divider: 1.0,
+        };
         let screen = egui_wgpu::ScreenDescriptor { size_in_pixels: WINDOW, pixels_per_point: 1.0 };
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor { label: None });
-        let mut uploads = painter.update_buffers(&gpu.device, &gpu.queue, &mut encoder, &shapes, &screen);
-        let view = target.create_view(&Default::default());
+        let primitives = &shapes.primitives;
+        let mut uploads = self.painter.update_buffers(&gpu.device, &gpu.queue, &mut encoder, primitives, &screen);
+        let view = self.target.create_view(&Default::default());
         let pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("panels"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
@@ -107,14 +121,52 @@ fn side_picture(gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Picture {
             })],
             ..Default::default()
         });
-        painter.render(&mut pass.forget_lifetime(), &shapes, &screen);
+        if let Some(kept) = &mut self.kept {
+            drop(pass);
+            kept.paint(gpu, &mut encoder, &self.painter, &self.target, &mut shapes);
+        } else {
+            self.painter.render(&mut pass.forget_lifetime(), &shapes.primitives, &screen);
+        }
+        shapes.textures.clear();
         uploads.push(encoder.finish());
         gpu.queue.submit(uploads);
+        read_texture(gpu, &self.target, 4).expect("read")
     }
-    let bytes = read_texture(gpu, &target, 4).expect("read");
+}
+
+/// The side panel as it is drawn.
+fn side_picture(gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Picture {
+    let mut sheet = Sheet::new(gpu, None);
+    // Sizes settle in the first frames.
+    let [_, _, bytes] = [(); 3].map(|()| sheet.frame(gpu, panels, facts));
     let row = 4 * WINDOW[0] as usize;
     let display = bytes.chunks_exact(row).flat_map(|line| &line[row - 4 * SIDE as usize..]).copied().collect();
     Picture { width: SIDE, height: WINDOW[1], radiance: Vec::new(), display }
+}
+
+#[test]
+fn a_side_that_is_kept_looks_as_if_painted_anew() {
+    let Some(gpu) = gpu() else { return };
+    let scene = builtin::cornell();
+    let mut sheets = [Some(KeptSide::default()), None].map(|kept| Sheet::new(gpu, kept));
+    let mut every = sheets.each_ref().map(|_| panels(&scene, &[]));
+    for step in 0..12 {
+        let pictures = [0, 1].map(|which| {
+            let panels = &mut every[which];
+            match step {
+                3 => panels.memory.tab = Tab::Place,
+                5 => panels.light.shading = Shading::FalseColour,
+                7 => panels.memory.is_open = false,
+                8 => panels.memory.is_open = true,
+                10 => panels.shows_help = true,
+                _ => {}
+            }
+            // The status bar changes every time, the side does not.
+            let facts = Facts { frame_rate: 30.0 + step as f32, ..facts(&scene) };
+            sheets[which].frame(gpu, panels, &facts)
+        });
+        assert!(pictures[0] == pictures[1], "step {step}");
+    }
 }
 
 #[test]

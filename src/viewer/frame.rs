@@ -104,6 +104,8 @@ impl Walkthrough {
         let (mut commands, mut free) = (Vec::new(), egui::Rect::ZERO);
         let mut shapes = self.gui.run(&self.window, |ui| (commands, free) = self.panels.ui(ui, &facts));
         shapes.divider = self.panels.light.divider;
+        let window = self.screen.size().map(|side| side as f32 / shapes.pixels_per_point);
+        shapes.side = egui::Rect::from_min_max(egui::pos2(free.right(), 0.0), egui::pos2(window[0], free.bottom()));
         self.picture_size = pixels(free, shapes.pixels_per_point, self.screen.size());
         (shapes, commands)
     }

@@ -73,6 +73,7 @@ impl Gui {
             primitives: self.ctx.tessellate(output.shapes, output.pixels_per_point),
             textures: output.textures_delta,
             pixels_per_point: output.pixels_per_point,
+            side: egui::Rect::ZERO,
             divider: 1.0,
         }
     }

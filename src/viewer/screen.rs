@@ -7,12 +7,13 @@ use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
 use super::canvas::{Canvas, Detail, Sight};
+use super::kept_side::KeptSide;
 use super::warm_up::warm_up;
 use crate::gpu::Gpu;
 use crate::render::shadow::Batch;
 
 /// Where neither picture nor panels are.
-const EMPTY: wgpu::Color = wgpu::Color { r: 0.05, g: 0.055, b: 0.065, a: 1.0 };
+pub(super) const EMPTY: wgpu::Color = wgpu::Color { r: 0.05, g: 0.055, b: 0.065, a: 1.0 };
 
 /// A device with a window's surface and what draws into it.
 pub struct Screen {
@@ -23,6 +24,8 @@ pub struct Screen {
     /// The picture behind the panels.
     pub canvas: Canvas,
     painter: egui_wgpu::Renderer,
+    /// Where the processor draws.
+    side: Option<KeptSide>,
 }
 
 /// A picture to draw.
@@ -45,6 +48,8 @@ pub struct PanelShapes {
     pub textures: egui::TexturesDelta,
     /// Pixels of a point.
     pub pixels_per_point: f32,
+    /// Where the side panel is, points; empty where it is hidden.
+    pub side: egui::Rect,
     /// Where the divider of a split screen is, as a share of the picture's width.
     pub divider: f32,
 }
@@ -79,7 +84,8 @@ impl Screen {
         // Plain panels need no dithering, which costs a processor that draws more than the panels themselves.
         let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
         let painter = egui_wgpu::Renderer::new(&gpu.device, config.format, options);
-        Ok(Self { gpu: Arc::new(gpu), surface, config, canvas, painter })
+        let side = canvas.is_slow().then(KeptSide::default);
+        Ok(Self { gpu: Arc::new(gpu), surface, config, canvas, painter, side })
     }
 
     /// Pixels across and down.
@@ -101,7 +107,7 @@ impl Screen {
     pub fn show(&mut self, window: &Window, picture: Option<NewPicture>, mut panels: PanelShapes) -> Shown {
         // Even where the frame fails: panels say only once what is new and what is gone.
         self.update_textures(&panels.textures);
-        let shown = self.show_updated(window, picture, &panels);
+        let shown = self.show_updated(window, picture, &mut panels);
         for id in &panels.textures.free {
             self.painter.free_texture(id);
         }
@@ -109,7 +115,7 @@ impl Screen {
         shown
     }
 
-    fn show_updated(&mut self, window: &Window, picture: Option<NewPicture>, panels: &PanelShapes) -> Shown {
+    fn show_updated(&mut self, window: &Window, picture: Option<NewPicture>, panels: &mut PanelShapes) -> Shown {
         let frame = match self.surface.get_current_texture() {
             wgpu::CurrentSurfaceTexture::Success(frame) | wgpu::CurrentSurfaceTexture::Suboptimal(frame) => frame,
             wgpu::CurrentSurfaceTexture::Timeout | wgpu::CurrentSurfaceTexture::Occluded => return Shown::No,
@@ -135,7 +141,7 @@ impl Screen {
         Shown::Yes
     }
 
-    fn submit(&mut self, target: &wgpu::Texture, picture: Option<NewPicture>, panels: &PanelShapes) {
+    fn submit(&mut self, target: &wgpu::Texture, picture: Option<NewPicture>, panels: &mut PanelShapes) {
         let Gpu { device, queue, .. } = &*self.gpu;
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("screen") });
         match picture {
@@ -153,9 +159,12 @@ impl Screen {
         let screen =
             egui_wgpu::ScreenDescriptor { size_in_pixels: self.size(), pixels_per_point: panels.pixels_per_point };
         let mut uploads = self.painter.update_buffers(device, queue, &mut encoder, &panels.primitives, &screen);
-        let mut pass = begin_pass(&mut encoder, &view, wgpu::LoadOp::Load).forget_lifetime();
-        self.painter.render(&mut pass, &panels.primitives, &screen);
-        drop(pass);
+        if let Some(side) = &mut self.side {
+            side.paint(&self.gpu, &mut encoder, &self.painter, target, panels);
+        } else {
+            let mut pass = begin_pass(&mut encoder, &view, wgpu::LoadOp::Load).forget_lifetime();
+            self.painter.render(&mut pass, &panels.primitives, &screen);
+        }
         uploads.push(encoder.finish());
         queue.submit(uploads);
     }
@@ -169,7 +178,8 @@ impl Screen {
     }
 }
 
-fn begin_pass<'e>(
+/// Begins a pass of panels.
+pub(super) fn begin_pass<'e>(
     encoder: &'e mut wgpu::CommandEncoder,
     target: &wgpu::TextureView,
     load: wgpu::LoadOp<wgpu::Color>,

@@ -16,7 +16,7 @@ pub fn screen(gpu: &Gpu, size: [u32; 2], format: TextureFormat) -> Texture {
         sample_count: 1,
         dimension: TextureDimension::D2,
         format,
-        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC,
+        usage: TextureUsages::RENDER_ATTACHMENT | TextureUsages::COPY_SRC | TextureUsages::COPY_DST,
         view_formats: &[],
     })
 }
