@@ -1,6 +1,7 @@
 //! The window's surface: the picture of the scene, and the panels on top of it.
 
 use std::sync::Arc;
+use std::time::Duration;
 
 use anyhow::Context;
 use winit::dpi::PhysicalSize;
@@ -14,6 +15,10 @@ use crate::render::shadow::Batch;
 
 /// Where neither picture nor panels are.
 pub(super) const EMPTY: wgpu::Color = wgpu::Color { r: 0.05, g: 0.055, b: 0.065, a: 1.0 };
+
+/// Times that a surface is set up until it is, and what is waited between: seconds in all.
+const MOST_TRIES: usize = 1000;
+const PAUSE: Duration = Duration::from_millis(2);
 
 /// A device with a window's surface and what draws into it.
 pub struct Screen {
@@ -76,7 +81,7 @@ impl Screen {
         let surface = instance.create_surface(Arc::clone(window)).context("the window takes no graphics")?;
         let gpu = Gpu::for_surface(instance, Some(&surface))?;
         let config = configuration(&gpu, &surface, window.inner_size())?;
-        surface.configure(&gpu.device, &config);
+        configure(&gpu, &surface, &config);
         let mut canvas = Canvas::new(&gpu, config.format);
         if canvas.is_slow() {
             warm_up(&gpu, &mut canvas);
@@ -99,7 +104,7 @@ impl Screen {
         let limit = self.gpu.device.limits().max_texture_dimension_2d;
         if size.width > 0 && size.height > 0 {
             (self.config.width, self.config.height) = (size.width.min(limit), size.height.min(limit));
-            self.surface.configure(&self.gpu.device, &self.config);
+            configure(&self.gpu, &self.surface, &self.config);
         }
     }
 
@@ -122,7 +127,7 @@ impl Screen {
             wgpu::CurrentSurfaceTexture::Outdated
             | wgpu::CurrentSurfaceTexture::Lost
             | wgpu::CurrentSurfaceTexture::Validation => {
-                self.surface.configure(&self.gpu.device, &self.config);
+                configure(&self.gpu, &self.surface, &self.config);
                 return Shown::Retry;
             }
         };
@@ -175,6 +180,19 @@ impl Screen {
                 self.painter.update_texture(&self.gpu.device, &self.gpu.queue, id, delta);
             }
         }
+    }
+}
+
+/// Sets a surface up. wgpu refuses where another thread hands work to the device just then, as a bake does with its light:
+/// once more.
+fn configure(gpu: &Gpu, surface: &wgpu::Surface<'_>, config: &wgpu::SurfaceConfiguration) {
+    for _ in 0..MOST_TRIES {
+        let refusal = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        surface.configure(&gpu.device, config);
+        if pollster::block_on(refusal.pop()).is_none() {
+            return;
+        }
+        std::thread::sleep(PAUSE);
     }
 }
 
