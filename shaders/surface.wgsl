@@ -2,8 +2,8 @@
 //
 //   L = emission + rho / pi x sum over groups of weight x (direct x E_direct + indirect x E_indirect)
 //
-// Irradiance E was summed over the groups at the vertices (shaders/weigh_groups.wgsl) and is interpolated; rho and emission
-// are read per pixel, so textures stay sharp.
+// Irradiance E was summed over the groups at the vertices (shaders/weigh_groups.wgsl) and is interpolated; rho and
+// emission are read per pixel, so textures stay sharp.
 
 // What is shown, fixed when a pipeline is made.
 const SHADING_LIT: u32 = 0u;
@@ -60,7 +60,8 @@ fn vertex(in: Vertex) -> Varying {
     return out;
 }
 
-// What the target is given of a fragment that receives `direct`, irradiance scaled by pre-exposure, beside the light of the vertices.
+// What the target is given of a fragment that receives `direct`, irradiance scaled by pre-exposure, beside the light of the
+// vertices.
 fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> vec4f {
     let base = base_colour(in.colour, in.uv);
     let coverage = coverage(base.a);

@@ -110,7 +110,9 @@ fn lit_share(shadow_map: ShadowMap, map: texture_depth_2d_array, gathered: sampl
             let corner = (floor(middle) + first + 1.0) * shadow_map.inverse_resolution;
             let stored = textureGather(map, gathered, corner, at.face);
             let offset = first - share;
-            let surface = depth + fall.x * (offset.x + vec4f(0.0, 1.0, 1.0, 0.0)) + fall.y * (offset.y + vec4f(1.0, 1.0, 0.0, 0.0));
+            let right = offset.x + vec4f(0.0, 1.0, 1.0, 0.0);
+            let down = offset.y + vec4f(1.0, 1.0, 0.0, 0.0);
+            let surface = depth + fall.x * right + fall.y * down;
             let before = select(vec2f(1.0), 1.0 - share, vec2i(x, y) == vec2i(0));
             let after = select(vec2f(1.0), share, vec2i(x, y) == vec2i(PCF_RADIUS));
             let weights = vec4f(before.x, after.x, after.x, before.x) * vec4f(after.yy, before.yy);

@@ -145,11 +145,12 @@ impl Renderer {
             let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
             live.draw(gpu, encoder, size, subject, settings)
         });
-        // Light from every visible point towards the eye, several samples a pixel, and their mean.
+        // Light from every visible point towards the eye: displayed, or several samples a pixel and their mean.
         let is_last = self.can_display_at_once(seen, look);
-        let onto = match is_last {
-            true => SurfaceTargets::display(target, self.output_format, &targets, look),
-            false => SurfaceTargets::radiance(&targets),
+        let onto = if is_last {
+            SurfaceTargets::display(target, self.output_format, &targets, look)
+        } else {
+            SurfaceTargets::radiance(&targets)
         };
         let source = DirectSource::of(live.as_ref());
         let surface = self.surfaces.entry(source);
