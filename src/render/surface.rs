@@ -12,6 +12,9 @@ use crate::gpu::scene_buffers::Batch;
 use crate::gpu::targets::Targets;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 
+/// Pipelines that are kept; those of a look are a few, and a software driver keeps a megabyte for each.
+const MOST_PIPELINES: usize = 32;
+
 /// Surface pass.
 pub struct SurfacePass {
     source: DirectSource,
@@ -160,6 +163,9 @@ impl SurfacePass {
             _ => None,
         };
         let variant = |batch: &Batch| (Variant::new(batch, look, targets.output), kinds);
+        if self.pipelines.len() > MOST_PIPELINES {
+            self.pipelines.clear();
+        }
         for needed in scene.batches.iter().map(variant) {
             if !self.pipelines.contains_key(&needed) {
                 self.pipelines.insert(needed, self.pipeline(gpu, needed));
