@@ -1,4 +1,4 @@
-// Bind group 0 of every pass: what one picture asks for. Written by src/render/frame.rs.
+// Bind group 0 of every pass: what one picture asks for. Written by src/render/frame_uniform.rs.
 //
 // No branch may depend on a uniform buffer: for the values of such uniforms lavapipe compiles the shader anew each time that
 // they are bound, and keeps what it has compiled. So choices lie in a storage buffer. Nothing of which derivatives are

@@ -38,7 +38,7 @@ pub struct MeasureArgs {
     /// radiosity gathers over a bake; path traces paths, for truth, and adds the columns se_r,se_g,se_b (standard error).
     #[arg(long, value_enum, value_name = "RENDERER", default_value = "radiosity")]
     pub renderer: Renderer,
-    /// With path: paths a point.
+    /// With path: paths a point, rounded up to a multiple of 32.
     #[arg(long, value_name = "N", default_value = "4096", value_parser = clap::value_parser!(u32).range(16..=1 << 24))]
     pub spp: u32,
     /// With path: light is followed through at most this many reflections [default: to the end].

@@ -14,7 +14,7 @@ use super::shadow_map::MapSettings;
 use crate::base::sampling::tangent_frame;
 use crate::scene::{LightKind, Scene};
 
-/// Axes of a cube's faces and what is up on them, in the order of shaders/shared/visibility_map.wgsl.
+/// Axes of a cube's faces and what is up on them, in the order of shaders/shared/map_lookup.wgsl.
 const FACES: [(Vec3, Vec3); 6] = [
     (Vec3::X, Vec3::Y),
     (Vec3::NEG_X, Vec3::Y),
@@ -41,7 +41,7 @@ pub struct MapProjection {
     pub uniform: MapUniform,
 }
 
-/// `ShadowMap` of shaders/shared/visibility_map.wgsl.
+/// `ShadowMap` of shaders/shared/map_lookup.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct MapUniform {

@@ -84,7 +84,7 @@ impl ShadowMapPass {
         &self.read_layout
     }
 
-    /// How maps are compared.
+    /// How texels are gathered.
     pub fn sampler(&self) -> &wgpu::Sampler {
         &self.sampler
     }
@@ -116,18 +116,10 @@ impl ShadowMapPass {
         ReadableMap { num_faces, uniform: projection.uniform, depth: map.all.clone() }
     }
 
-    /// The map of a light sample, bound for the pass that reads it; the number of its faces, and the binding.
-    pub fn draw(
-        &self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        subject: Subject<'_>,
-        sample: &LightSample,
-        settings: &MapSettings,
-    ) -> (u32, wgpu::BindGroup) {
-        let map = self.map(gpu, encoder, subject, sample, settings);
+    /// A map, bound for the pass that reads it alone.
+    pub fn bind(&self, gpu: &Gpu, map: &ReadableMap) -> wgpu::BindGroup {
         let uniform = uniform_buffer(gpu, bytemuck::bytes_of(&map.uniform));
-        let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+        gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("shadow map"),
             layout: &self.read_layout,
             entries: &[
@@ -135,8 +127,7 @@ impl ShadowMapPass {
                 wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&map.depth) },
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.sampler) },
             ],
-        });
-        (map.num_faces, bindings)
+        })
     }
 
     fn draw_face(

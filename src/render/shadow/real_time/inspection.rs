@@ -22,7 +22,8 @@ impl RealTimeLight {
         settings: &ShadowSettings,
         sample: &LightSample,
     ) -> (u32, wgpu::BindGroup) {
-        self.maps.draw(gpu, encoder, subject, sample, &settings.maps)
+        let map = self.maps.map(gpu, encoder, subject, sample, &settings.maps);
+        (map.num_faces, self.maps.bind(gpu, &map))
     }
 
     /// Counts the shadows of light sample `index`; the stencil. For passes with one sample a pixel.

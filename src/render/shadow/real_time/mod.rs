@@ -226,17 +226,17 @@ impl RealTimeLight {
         subject.lap(encoder, "shadow stencil");
         // Light where there are none.
         let is_map = settings.technique == ShadowTechnique::Map;
-        let map = is_map.then(|| self.maps.draw(gpu, encoder, subject, sample, &settings.maps));
+        let map = is_map.then(|| self.maps.map(gpu, encoder, subject, sample, &settings.maps));
         let kind = |num_faces| MapKind { is_cube: num_faces == 6, pcf_radius: settings.maps.pcf_radius };
-        let map_pass = map.as_ref().map(|(num_faces, _)| self.map_light.pass(gpu, kind(*num_faces)));
+        let map_pass = map.as_ref().map(|map| self.map_light.pass(gpu, kind(map.num_faces)));
         if is_map {
             subject.lap(encoder, "shadow maps");
         }
         let mut pass = direct_light::begin(encoder, targets);
         pass.set_bind_group(0, subject.frame, &[]);
         lights.bind(&mut pass, index);
-        if let Some((_, bindings)) = &map {
-            pass.set_bind_group(2, bindings, &[]);
+        if let Some(map) = &map {
+            pass.set_bind_group(2, &self.maps.bind(gpu, map), &[]);
         }
         let light = map_pass.unwrap_or(match settings.technique {
             ShadowTechnique::Planar => &self.planar_light,
