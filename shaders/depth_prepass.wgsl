@@ -9,12 +9,13 @@ struct Vertex {
 struct Varying {
     @builtin(position) @invariant position: vec4f,
     @location(0) colour: vec4f,
-    @location(1) uv: vec4f,
+    @location(1) uv: vec2f,
 }
 
 @vertex
 fn vertex(in: Vertex) -> Varying {
-    return Varying(frame.projection_from_world * vec4f(in.position, 1.0), in.colour, in.uv);
+    return Varying(frame.projection_from_world * vec4f(in.position, 1.0), material.base_colour * in.colour,
+        coordinate(material.base_slot, in.uv));
 }
 
 // Only masked surfaces have a fragment shader: it makes their holes.

@@ -5,10 +5,10 @@ const MAX_LIGHTS: u32 = 4u;
 // What they are like: software drivers go through both sides of every branch.
 override NUM_LIGHTS: u32 = 1u;
 override HAS_MAPS: bool = true;
-override IS_CUBE_0: bool = false;
-override IS_CUBE_1: bool = false;
-override IS_CUBE_2: bool = false;
-override IS_CUBE_3: bool = false;
+override KIND_0: u32 = 0u;
+override KIND_1: u32 = 0u;
+override KIND_2: u32 = 0u;
+override KIND_3: u32 = 0u;
 // One sample a pixel, which lies in its middle.
 override ONE_SAMPLE: bool = false;
 
@@ -21,43 +21,59 @@ override ONE_SAMPLE: bool = false;
 @group(3) @binding(5) var map_2: texture_depth_2d_array;
 @group(3) @binding(6) var map_3: texture_depth_2d_array;
 
-@fragment
-fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
-    let facet = facet_normal(in.middle);
-    var at: Receiver;
-    at.point = in.middle;
-    if !ONE_SAMPLE {
-        at.point = on_facet(in.point, in.middle, facet);
-    }
-    at.facet = facet;
-    at.normal = seen_normal(in.normal, is_front);
-    var direct = received(0u, map_0, IS_CUBE_0, at);
+@vertex
+fn vertex(in: Vertex) -> Varying {
+    var out = surface_varying(in);
+    out.point = in.position;
+    out.middle_0 = place_in_light_space(lights[0], in.position);
+    out.normal_0 = in_light_space(lights[0], in.normal);
     if NUM_LIGHTS > 1u {
-        direct += received(1u, map_1, IS_CUBE_1, at);
+        out.middle_1 = place_in_light_space(lights[1], in.position);
+        out.normal_1 = in_light_space(lights[1], in.normal);
     }
     if NUM_LIGHTS > 2u {
-        direct += received(2u, map_2, IS_CUBE_2, at);
+        out.middle_2 = place_in_light_space(lights[2], in.position);
+        out.normal_2 = in_light_space(lights[2], in.normal);
     }
     if NUM_LIGHTS > 3u {
-        direct += received(3u, map_3, IS_CUBE_3, at);
+        out.middle_3 = place_in_light_space(lights[3], in.position);
+        out.normal_3 = in_light_space(lights[3], in.normal);
     }
-    return surface_colour(in, is_front, direct * frame.pre_exposure);
+    return out;
 }
 
-// A visible point.
-struct Receiver {
-    point: vec3f,
-    facet: vec3f,
-    // Shading normal.
-    normal: vec3f,
+@fragment
+fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+    var direct = received(0u, KIND_0, map_0, receiver(0u, KIND_0, in, is_front, in.middle_0, in.normal_0));
+    if NUM_LIGHTS > 1u {
+        direct += received(1u, KIND_1, map_1, receiver(1u, KIND_1, in, is_front, in.middle_1, in.normal_1));
+    }
+    if NUM_LIGHTS > 2u {
+        direct += received(2u, KIND_2, map_2, receiver(2u, KIND_2, in, is_front, in.middle_2, in.normal_2));
+    }
+    if NUM_LIGHTS > 3u {
+        direct += received(3u, KIND_3, map_3, receiver(3u, KIND_3, in, is_front, in.middle_3, in.normal_3));
+    }
+    return surface_colour(in, is_front, direct);
 }
 
-fn received(index: u32, map: texture_depth_2d_array, is_cube: bool, at: Receiver) -> vec3f {
-    let light = lights[index];
-    let arrival = arrival(light, at.point);
-    let received = irradiance(light, arrival, at.normal);
+// The point in light space: that in the middle of the pixel, or where it may lie beyond the triangle, the centroid.
+fn receiver(index: u32, kind: u32, in: Varying, is_front: bool, middle: vec3f, normal: vec3f) -> Receiver {
+    if ONE_SAMPLE {
+        let place = from_light(lights[index], kind, middle);
+        return Receiver(place, facet_of(middle), seen_normal(normal, is_front));
+    }
+    let facet = facet_of(middle);
+    let point = on_facet(place_in_light_space(lights[index], in.point), middle, facet);
+    let shading_normal = in_light_space(lights[index], seen_normal(in.normal, is_front));
+    return Receiver(from_light(lights[index], kind, point), facet, shading_normal);
+}
+
+fn received(index: u32, kind: u32, map: texture_depth_2d_array, at: Receiver) -> vec3f {
+    let arrival = arrival(kind, at.from_light);
+    let received = irradiance(lights[index], kind, arrival, at.normal);
     if !HAS_MAPS {
         return received;
     }
-    return received * seen_share(light, arrival, shadow_maps[index], map, map_sampler, is_cube, at.point, at.facet);
+    return received * seen_share(kind, arrival, shadow_maps[index], map, map_sampler, at);
 }

@@ -3,6 +3,9 @@
 // No branch may depend on a uniform buffer: for the values of such uniforms lavapipe compiles the shader anew each time that
 // they are bound, and keeps what it has compiled. So choices lie in a storage buffer. Nothing of which derivatives are
 // taken may come from there: outside of triangles, where derivatives look, lavapipe loads zero.
+//
+// What pixels need of a uniform buffer they are handed by the vertices where that can be: of Mesa before 23, fragment
+// shaders load each number of it for each pixel anew, which takes as long as ten sums.
 
 const MAX_GROUPS: u32 = 8u;
 
@@ -22,10 +25,11 @@ struct Frame {
     pre_exposure: f32,
     // Displayed = radiance x exposure; 0 asks for the metered one.
     exposure: f32,
-    metal_as_diffuse: u32,
     num_vertices: u32,
-    // Factor on direct irradiance from the lights themselves: 1 / the number of batches that have been added up.
+    // From irradiance of the lights themselves, scaled by pre-exposure, to the radiance of white paint, scaled by it or by
+    // exposure.
     live: f32,
+    live_displayed: f32,
     // Homogeneous: the eye with w = 1, or the direction towards it with w = 0.
     eye: vec4f,
     // Ends of the scale of false colours in lux, whether it is logarithmic, and parts that lines cut it into.

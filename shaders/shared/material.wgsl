@@ -1,5 +1,6 @@
 // Bind group 2: a material's numbers and textures, and what they say of one point. Written by
-// src/gpu/material_buffers.rs. No branch depends on them, as shared/frame.wgsl explains.
+// src/gpu/material_buffers.rs. No branch depends on the numbers, and pixels are handed them by the vertices, as
+// shared/frame.wgsl explains.
 
 const NO_GROUP: u32 = 0xffffffffu;
 
@@ -32,8 +33,7 @@ struct Material {
     alpha_cutoff: f32,
     // Light group that dims the emission, or NO_GROUP.
     group: u32,
-    double_sided: u32,
-    unlit: u32,
+    padding: vec2u,
 }
 
 @group(2) @binding(0) var<uniform> material: Material;
@@ -49,13 +49,12 @@ fn coordinate(slot: Slot, uv: vec4f) -> vec2f {
     return vec2f(dot(slot.u, at), dot(slot.v, at));
 }
 
-// Colour and alpha where the mesh has `colour` and both coordinate sets `uv`.
-fn base_colour(colour: vec4f, uv: vec4f) -> vec4f {
-    let factor = material.base_colour * colour;
+// Colour and alpha of a point whose vertices have `factor` and are read at `place`.
+fn base_colour(factor: vec4f, place: vec2f) -> vec4f {
     if !HAS_TEXTURES {
         return factor;
     }
-    return factor * textureSample(base_texture, base_sampler, coordinate(material.base_slot, uv));
+    return factor * textureSample(base_texture, base_sampler, place);
 }
 
 // Share of the pixel that the surface fills.
@@ -75,18 +74,21 @@ fn coverage(alpha: f32) -> f32 {
     return select(1.0, ramp, ALPHA_TO_COVERAGE);
 }
 
-fn metallic(uv: vec4f) -> f32 {
+fn metallic(factor: f32, place: vec2f) -> f32 {
     if !HAS_TEXTURES {
-        return material.metallic;
+        return factor;
     }
-    return material.metallic * textureSample(metallic_texture, metallic_sampler, coordinate(material.metallic_slot, uv)).b;
+    return factor * textureSample(metallic_texture, metallic_sampler, place).b;
 }
 
-fn emission(uv: vec4f) -> vec3f {
-    let weight = select(group_weight(material.group), vec3f(1.0), material.group == NO_GROUP);
-    let emitted = material.emission * weight;
+// Emission of the material where it has no texture, dimmed with its group.
+fn emission_factor() -> vec3f {
+    return material.emission * select(group_weight(material.group), vec3f(1.0), material.group == NO_GROUP);
+}
+
+fn emission(factor: vec3f, place: vec2f) -> vec3f {
     if !HAS_TEXTURES {
-        return emitted;
+        return factor;
     }
-    return emitted * textureSample(emissive_texture, emissive_sampler, coordinate(material.emissive_slot, uv)).rgb;
+    return factor * textureSample(emissive_texture, emissive_sampler, place).rgb;
 }

@@ -7,6 +7,7 @@ override IS_CUBE: bool = false;
 @group(2) @binding(1) var map_depth: texture_depth_2d_array;
 @group(2) @binding(2) var map_sampler: sampler;
 
-fn visibility(point: vec3f, facet: vec3f) -> f32 {
-    return seen_share(light, arrival(light, point), shadow_map, map_depth, map_sampler, IS_CUBE, point, facet);
+fn visibility(arrival: Arrival, at: Receiver) -> f32 {
+    let kind = light.kind | select(0u, HAS_CUBE, IS_CUBE);
+    return seen_share(kind, arrival, shadow_map, map_depth, map_sampler, at);
 }

@@ -1,5 +1,5 @@
 // Whatever passes the stencil test sees the light.
 
-fn visibility(point: vec3f, facet: vec3f) -> f32 {
+fn visibility(arrival: Arrival, at: Receiver) -> f32 {
     return 1.0;
 }

@@ -11,11 +11,9 @@ struct VisiblePoint {
     @location(0) @interpolate(perspective, centroid) point: vec3f,
     // Shading normal of the front, of any length.
     @location(1) @interpolate(perspective, centroid) normal: vec3f,
-    // The point under the middle of the pixel, on the plane of its triangle: unlike a centroid it has derivatives.
-    @location(2) middle: vec3f,
 }
 
 @vertex
 fn vertex(in: Vertex) -> VisiblePoint {
-    return VisiblePoint(frame.projection_from_world * vec4f(in.position, 1.0), in.position, in.normal, in.position);
+    return VisiblePoint(frame.projection_from_world * vec4f(in.position, 1.0), in.position, in.normal);
 }

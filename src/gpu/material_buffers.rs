@@ -21,8 +21,7 @@ struct MaterialUniform {
     emissive_slot: SlotUniform,
     alpha_cutoff: f32,
     group: u32,
-    double_sided: u32,
-    unlit: u32,
+    padding: [u32; 2],
 }
 
 /// `Slot` of shaders/surface.wgsl.
@@ -49,8 +48,7 @@ impl MaterialUniform {
                 AlphaMode::Opaque | AlphaMode::Blend => 0.0,
             },
             group: material.group.map_or(u32::MAX, |group| group.0),
-            double_sided: u32::from(material.double_sided),
-            unlit: u32::from(material.unlit),
+            padding: [0; 2],
         }
     }
 }
@@ -139,7 +137,7 @@ mod tests {
         assert_eq!(slot, struct_layout(&SURFACE, "Slot"));
         let material = offsets![
             MaterialUniform: base_colour, emission, metallic, base_slot, metallic_slot, emissive_slot, alpha_cutoff,
-            group, double_sided, unlit
+            group, padding
         ];
         assert_eq!(material, struct_layout(&SURFACE, "Material"));
     }

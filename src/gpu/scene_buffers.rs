@@ -54,6 +54,8 @@ pub struct Batch {
     pub faces: Faces,
     /// Its material has textures.
     pub has_textures: bool,
+    /// Its material shows its base colour as it is, without light.
+    pub is_unlit: bool,
 }
 
 /// Which faces of a batch's triangles are surfaces.

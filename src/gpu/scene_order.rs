@@ -50,6 +50,7 @@ pub(super) fn order(scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> Orde
             has_textures: material.base_colour_texture.is_some()
                 || material.metallic_roughness_texture.is_some()
                 || material.emissive_texture.is_some(),
+            is_unlit: material.unlit,
         });
     }
     order

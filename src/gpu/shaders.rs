@@ -28,6 +28,7 @@ pub const SURFACE: Shader = shader!(
     "shared/display.wgsl",
     "shared/false_colour.wgsl",
     "shared/material.wgsl",
+    "shared/varying.wgsl",
     "surface.wgsl",
     "shared/direct_stored.wgsl"
 );
@@ -39,6 +40,7 @@ pub const SURFACE_LIT: Shader = shader!(
     "shared/display.wgsl",
     "shared/false_colour.wgsl",
     "shared/material.wgsl",
+    "shared/varying.wgsl",
     "surface.wgsl",
     "shared/direct_one.wgsl"
 );
@@ -50,6 +52,7 @@ pub const SURFACE_LIT_SAMPLES: Shader = shader!(
     "shared/display.wgsl",
     "shared/false_colour.wgsl",
     "shared/material.wgsl",
+    "shared/varying.wgsl",
     "surface.wgsl",
     "shared/direct_many.wgsl"
 );
@@ -64,6 +67,7 @@ pub const SURFACE_FEW_LIGHTS: Shader = shader!(
     "shared/facet.wgsl",
     "shared/light_sample.wgsl",
     "shared/map_lookup.wgsl",
+    "shared/varying_few.wgsl",
     "surface.wgsl",
     "shared/direct_few.wgsl"
 );
@@ -76,10 +80,10 @@ pub const DEPTH_PREPASS: Shader =
 pub const DIRECT_LIGHT: Shader = shader!(
     "direct light",
     "shared/frame.wgsl",
-    "shared/visible_point.wgsl",
     "shared/facet.wgsl",
     "shared/light_sample.wgsl",
     "shared/one_light.wgsl",
+    "shared/lit_point.wgsl",
     "shared/visibility_stencil.wgsl",
     "direct_light.wgsl"
 );
@@ -107,10 +111,10 @@ pub const SHADOW_MAP: Shader = shader!("shadow map", "shared/frame.wgsl", "share
 pub const DIRECT_LIGHT_MAP: Shader = shader!(
     "direct light, map",
     "shared/frame.wgsl",
-    "shared/visible_point.wgsl",
     "shared/facet.wgsl",
     "shared/light_sample.wgsl",
     "shared/one_light.wgsl",
+    "shared/lit_point.wgsl",
     "shared/map_lookup.wgsl",
     "shared/visibility_map.wgsl",
     "direct_light.wgsl"

@@ -1,5 +1,7 @@
 //! Bind group 0: what one picture asks of every pass.
 
+use std::f32::consts::PI;
+
 use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 use wgpu::util::DeviceExt;
@@ -21,9 +23,9 @@ struct FrameUniform {
     indirect: f32,
     pre_exposure: f32,
     exposure: f32,
-    metal_as_diffuse: u32,
     num_vertices: u32,
     live: f32,
+    live_displayed: f32,
     padding: [u32; 3],
     eye: Vec4,
     lux_scale: Vec4,
@@ -32,6 +34,10 @@ struct FrameUniform {
 impl FrameUniform {
     fn new(scene: &SceneBuffers, view: &View, look: &Look) -> Self {
         let weight = |group: usize| look.group_weight(GroupId::new(group)).extend(0.0);
+        let exposure = look.fixed_exposure().unwrap_or(0.0);
+        // Light is added up batch by batch, and their mean is shown.
+        let num_batches = 1 + look.shadows.as_ref().and_then(|shadows| shadows.batch).map_or(0, |batch| batch.number);
+        let live = look.direct / (PI * num_batches as f32);
         Self {
             projection_from_world: view.projection_from_world(),
             group_weights: std::array::from_fn(weight),
@@ -40,11 +46,10 @@ impl FrameUniform {
             background: look.background,
             indirect: look.indirect,
             pre_exposure: scene.pre_exposure,
-            exposure: look.fixed_exposure().unwrap_or(0.0),
-            metal_as_diffuse: u32::from(look.metal_as_diffuse),
+            exposure,
             num_vertices: scene.num_vertices() as u32,
-            live: 1.0
-                / (1 + look.shadows.as_ref().and_then(|shadows| shadows.batch).map_or(0, |batch| batch.number)) as f32,
+            live,
+            live_displayed: live * exposure / scene.pre_exposure,
             padding: [0; 3],
             eye: view.eye(),
             lux_scale: look.lux_scale.uniform(),
@@ -127,9 +132,9 @@ mod tests {
             indirect,
             pre_exposure,
             exposure,
-            metal_as_diffuse,
             num_vertices,
             live,
+            live_displayed,
             eye,
             lux_scale
         ];

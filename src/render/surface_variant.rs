@@ -53,7 +53,10 @@ pub struct Variant {
     shading: Shading,
     alpha: Alpha,
     has_textures: bool,
+    is_unlit: bool,
     culls: bool,
+    has_dark_back: bool,
+    metal_as_diffuse: bool,
     output: Output,
 }
 
@@ -85,11 +88,14 @@ impl Variant {
                 AlphaMode::Blend => Alpha::Blend,
             },
             has_textures: batch.has_textures,
+            is_unlit: batch.is_unlit,
             culls: match batch.faces {
                 Faces::Front => look.cull_back,
                 Faces::FrontOfTwins => true,
                 Faces::Both => false,
             },
+            has_dark_back: batch.faces == Faces::Front && !look.cull_back,
+            metal_as_diffuse: look.metal_as_diffuse,
             output,
         }
     }
@@ -109,16 +115,20 @@ impl Variant {
             Alpha::Blend => &BLEND,
         };
         let to_coverage = alpha.to_coverage && samples > 1;
+        let switch = |is_on: bool| f64::from(u8::from(is_on));
         constants.extend([
             ("SHADING", f64::from(self.shading.number())),
-            ("HAS_TEXTURES", f64::from(u8::from(self.has_textures))),
+            ("HAS_TEXTURES", switch(self.has_textures)),
+            ("IS_UNLIT", switch(self.is_unlit)),
+            ("HAS_DARK_BACK", switch(self.has_dark_back)),
+            ("METAL_AS_DIFFUSE", switch(self.metal_as_diffuse)),
             ("ALPHA_MODE", alpha.shader_mode),
-            ("ALPHA_TO_COVERAGE", f64::from(u8::from(to_coverage))),
+            ("ALPHA_TO_COVERAGE", switch(to_coverage)),
         ]);
         let format = match self.output {
             Output::Radiance => HDR_FORMAT,
             Output::Display(format, tone_map) => {
-                let encodes = f64::from(u8::from(format.is_srgb()));
+                let encodes = switch(format.is_srgb());
                 let tone_map = f64::from(tone_map.number());
                 constants.extend([("DISPLAYS", 1.0), ("TARGET_ENCODES", encodes), ("TONE_MAP", tone_map)]);
                 format

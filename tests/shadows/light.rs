@@ -86,8 +86,8 @@ fn the_surface_pass_adds_the_light_of_a_few_lamps_as_passes_of_their_own_do() {
                 let pairs = few.radiance.iter().zip(&passes.radiance);
                 let differs = |a: &f32, b: &f32| (a - b).abs() > 0.01 * b.max(0.1);
                 let differing = pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| differs(a, b))).count();
-                // Where several samples a pixel meet an edge, half floats are rounded elsewhere.
-                let allowed = if samples > 1 { few.radiance.len() / 5000 } else { 0 };
+                // Where several samples a pixel meet an edge, half floats and centroids are rounded elsewhere.
+                let allowed = if samples > 1 { few.radiance.len() / 4000 } else { 0 };
                 assert!(
                     differing <= allowed,
                     "{num_lamps} lamps, {technique:?}, {samples} samples a pixel: {differing}"

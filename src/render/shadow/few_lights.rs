@@ -14,13 +14,16 @@ use crate::gpu::Gpu;
 
 /// `MAX_LIGHTS` of shaders/shared/direct_few.wgsl.
 const MAX_LIGHTS: usize = 4;
+/// Bit of shaders/shared/map_lookup.wgsl.
+const HAS_CUBE: u32 = 32;
 
 /// What the light samples are like: one pipeline each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Kinds {
     num_lights: usize,
     has_maps: bool,
-    is_cube: [bool; MAX_LIGHTS],
+    /// Bits of shaders/shared/light_sample.wgsl and shaders/shared/map_lookup.wgsl.
+    kinds: [u32; MAX_LIGHTS],
     pcf_radius: u32,
     has_normal_offset: bool,
 }
@@ -29,14 +32,14 @@ impl Kinds {
     /// Constants of shaders/shared/direct_few.wgsl.
     pub fn constants(&self) -> Vec<(&'static str, f64)> {
         let switch = |is_on: bool| f64::from(u8::from(is_on));
-        let cubes = ["IS_CUBE_0", "IS_CUBE_1", "IS_CUBE_2", "IS_CUBE_3"].into_iter().zip(self.is_cube.map(switch));
+        let kinds = ["KIND_0", "KIND_1", "KIND_2", "KIND_3"].into_iter().zip(self.kinds.map(f64::from));
         let numbers = [
             ("NUM_LIGHTS", self.num_lights as f64),
             ("HAS_MAPS", switch(self.has_maps)),
             ("PCF_RADIUS", f64::from(self.pcf_radius)),
             ("HAS_NORMAL_OFFSET", switch(self.has_normal_offset)),
         ];
-        numbers.into_iter().chain(cubes).collect()
+        numbers.into_iter().chain(kinds).collect()
     }
 }
 
@@ -78,7 +81,7 @@ impl FewLights {
         let mut kinds = Kinds {
             num_lights: samples.len(),
             has_maps,
-            is_cube: [false; MAX_LIGHTS],
+            kinds: [0; MAX_LIGHTS],
             pcf_radius: settings.maps.pcf_radius,
             has_normal_offset: settings.maps.normal_offset > 0.0,
         };
@@ -87,11 +90,12 @@ impl FewLights {
         // Every binding must be bound.
         let mut depths = [(); MAX_LIGHTS].map(|()| maps.no_map().clone());
         for (index, sample) in samples.iter().enumerate() {
-            lights[index] = LightUniform::new(sample, subject.look);
+            lights[index] = LightUniform::new(sample, subject);
+            kinds.kinds[index] = lights[index].kind();
             if has_maps {
                 let map = maps.map(gpu, encoder, subject, sample, &settings.maps);
                 projections[index] = map.uniform;
-                kinds.is_cube[index] = map.num_faces == 6;
+                kinds.kinds[index] |= if map.num_faces == 6 { HAS_CUBE } else { 0 };
                 depths[index] = map.depth;
             }
         }
@@ -116,7 +120,8 @@ impl FewLights {
 pub fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let read = wgpu::ShaderStages::FRAGMENT;
     let gathered = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
-    let mut entries = vec![entry(0, read, UNIFORM), entry(1, read, UNIFORM), entry(2, read, gathered)];
+    let mut entries =
+        vec![entry(0, wgpu::ShaderStages::VERTEX_FRAGMENT, UNIFORM), entry(1, read, UNIFORM), entry(2, read, gathered)];
     entries.extend((3..).take(MAX_LIGHTS).map(|binding| entry(binding, read, DEPTH_ARRAY)));
     gpu.device
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("few lights"), entries: &entries })

@@ -1,58 +1,83 @@
 //! The light samples of one picture on the device, one uniform each in one buffer.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
 use super::light_samples::LightSample;
+use super::real_time::Subject;
 use crate::gpu::Gpu;
-use crate::render::Look;
 use crate::scene::LightKind;
 
 /// Bytes from one sample to the next: the largest alignment of a dynamic offset that a device may ask for.
 const STRIDE: u32 = 256;
 /// `1 / (cos inner - cos outer)` is at most one over this, as in `scene::light`.
 const NARROWEST_RIM: f32 = 1e-3;
+/// Lights farther from the middle of a scene than so many times its size are far.
+const FAR: f32 = 4.0;
 
 /// `LightSample` of shaders/shared/light_sample.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct LightUniform {
     place: Vec4,
-    axis: Vec3,
-    is_surface: f32,
-    intensity: Vec3,
+    right: Vec3,
+    kind: u32,
+    up: Vec3,
     inverse_square_range: f32,
+    back: Vec3,
     cone_scale: f32,
+    intensity: Vec3,
     cone_offset: f32,
-    padding: Vec2,
+    to_origin: Vec3,
+    padding: f32,
 }
 
 impl LightUniform {
-    /// A sample, dimmed as `look` wants.
-    pub fn new(sample: &LightSample, look: &Look) -> Self {
-        const NO_CONE: [f32; 2] = [0.0, 1.0];
-        let (axis, cone) = match (sample.surface_normal, sample.light.kind) {
-            (Some(normal), _) => (normal, NO_CONE),
-            (None, LightKind::Point { .. }) => (Vec3::ZERO, NO_CONE),
-            (None, LightKind::Directional { direction }) => (direction, NO_CONE),
-            (None, LightKind::Spot { direction, inner_angle, outer_angle, .. }) => {
+    /// A sample as a picture of a subject has it: dimmed, and scaled by pre-exposure.
+    pub fn new(sample: &LightSample, subject: Subject<'_>) -> Self {
+        let (cone_scale, cone_offset) = match sample.light.kind {
+            LightKind::Spot { inner_angle, outer_angle, .. } => {
                 let cos_outer = outer_angle.cos();
                 let scale = 1.0 / (inner_angle.cos() - cos_outer).max(NARROWEST_RIM);
-                (direction, [scale, -cos_outer * scale])
+                (scale, -cos_outer * scale)
             }
+            LightKind::Point { .. } | LightKind::Directional { .. } => (0.0, 1.0),
         };
+        let axes = sample.axes();
+        let place = sample.place();
         Self {
-            place: sample.place(),
-            axis,
-            is_surface: f32::from(u8::from(sample.surface_normal.is_some())),
-            intensity: sample.light.intensity * look.group_weight(sample.light.group),
+            place,
+            right: axes.x_axis,
+            kind: kind(sample, subject.shadows.bounds()),
+            up: axes.y_axis,
             inverse_square_range: sample.light.range.map_or(0.0, |range| 1.0 / (range * range)),
-            cone_scale: cone[0],
-            cone_offset: cone[1],
-            padding: Vec2::ZERO,
+            back: axes.z_axis,
+            cone_scale,
+            intensity: sample.light.intensity
+                * subject.look.group_weight(sample.light.group)
+                * subject.scene.pre_exposure,
+            cone_offset,
+            to_origin: -axes.transpose() * place.truncate(),
+            padding: 0.0,
         }
     }
+
+    /// Bits of shaders/shared/light_sample.wgsl.
+    pub fn kind(&self) -> u32 {
+        self.kind
+    }
+}
+
+fn kind(sample: &LightSample, (low, high): (Vec3, Vec3)) -> u32 {
+    let has = |bit: u32, is_on: bool| if is_on { bit } else { 0 };
+    let place = sample.place();
+    let is_far = place.truncate().distance(0.5 * (low + high)) > FAR * low.distance(high);
+    has(1, matches!(sample.light.kind, LightKind::Directional { .. }))
+        | has(2, sample.surface_normal.is_some())
+        | has(4, matches!(sample.light.kind, LightKind::Spot { .. }))
+        | has(8, sample.light.range.is_some())
+        | has(16, place.w > 0.0 && is_far)
 }
 
 /// Layout of bind group 1 of every pass that knows a light sample.
@@ -78,11 +103,11 @@ pub struct LightUniforms {
 }
 
 impl LightUniforms {
-    /// Uploads the samples, dimmed as `look` wants.
-    pub fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, samples: &[LightSample], look: &Look) -> Self {
+    /// Uploads the samples for a picture of a subject.
+    pub fn new(gpu: &Gpu, layout: &wgpu::BindGroupLayout, samples: &[LightSample], subject: Subject<'_>) -> Self {
         let mut bytes = vec![0; STRIDE as usize * samples.len().max(1)];
         for (slot, sample) in bytes.chunks_exact_mut(STRIDE as usize).zip(samples) {
-            slot[..size_of::<LightUniform>()].copy_from_slice(bytemuck::bytes_of(&LightUniform::new(sample, look)));
+            slot[..size_of::<LightUniform>()].copy_from_slice(bytemuck::bytes_of(&LightUniform::new(sample, subject)));
         }
         let buffer = gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
             label: Some("light samples"),
@@ -119,8 +144,19 @@ mod tests {
         macro_rules! offsets {
             ($($field:ident),+) => { vec![$(offset_of!(LightUniform, $field)),+, size_of::<LightUniform>()] };
         }
-        let written =
-            offsets![place, axis, is_surface, intensity, inverse_square_range, cone_scale, cone_offset, padding];
+        let written = offsets![
+            place,
+            right,
+            kind,
+            up,
+            inverse_square_range,
+            back,
+            cone_scale,
+            intensity,
+            cone_offset,
+            to_origin,
+            padding
+        ];
         assert_eq!(written, struct_layout(&DIRECT_LIGHT, "LightSample"));
     }
 }

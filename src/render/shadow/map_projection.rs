@@ -11,10 +11,9 @@ use glam::{Mat4, Vec2, Vec3, Vec3Swizzles};
 
 use super::light_samples::LightSample;
 use super::shadow_map::MapSettings;
-use crate::base::sampling::tangent_frame;
-use crate::scene::{LightKind, Scene};
+use crate::scene::LightKind;
 
-/// Axes of a cube's faces and what is up on them, in the order of shaders/shared/map_lookup.wgsl.
+/// Axes of a cube's faces and what is up on them, in light space, in the order of shaders/shared/map_lookup.wgsl.
 const FACES: [(Vec3, Vec3); 6] = [
     (Vec3::X, Vec3::Y),
     (Vec3::NEG_X, Vec3::Y),
@@ -45,110 +44,196 @@ pub struct MapProjection {
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 pub struct MapUniform {
-    projection_from_world: Mat4,
-    plane_from_world: Mat4,
-    half_width: f32,
-    near: f32,
-    texel: f32,
-    resolution: f32,
+    origin: Vec2,
+    scale: f32,
+    depth_scale: f32,
+    depth_offset: f32,
     inverse_resolution: f32,
     normal_offset: f32,
     slope_bias: f32,
-    padding: u32,
     rounding: Vec2,
-    padding_to_16: [u32; 2],
+    padding: Vec2,
 }
 
 impl MapProjection {
-    /// What the map of a light sample shows of a scene.
-    pub fn new(scene: &Scene, sample: &LightSample, settings: &MapSettings) -> Self {
-        let (low, high) = scene.bounds();
+    /// What the map of a light sample shows of the scene in a box.
+    pub fn new((low, high): (Vec3, Vec3), sample: &LightSample, settings: &MapSettings) -> Self {
         let near = NEAR * (high - low).max_element();
         let resolution = settings.resolution as f32;
         let border = BORDER + settings.pcf_radius as f32;
-        let (projection_from_world, half_width) = match sample.light.kind {
-            LightKind::Directional { direction } => fitted((low, high), direction, resolution, border),
-            LightKind::Spot { position, direction, outer_angle, .. } if outer_angle < WIDEST_SPOT => {
-                let half_width = outer_angle.tan() * resolution / (resolution - 2.0 * border);
-                let up = tangent_frame(direction).0;
-                (vec![perspective(half_width, near) * look_to_mat4(position, direction, up)], half_width)
+        // As much wider as the border, which is not part of the picture.
+        let widened = resolution / (resolution - 2.0 * border);
+        let light_from_world = light_from_world(sample);
+        let (projection_from_light, uniform) = match sample.light.kind {
+            LightKind::Directional { .. } => {
+                let (least, most) = box_in_light_space((low, high), light_from_world);
+                let fitted = Fitted::new((least, most), resolution, widened);
+                (vec![fitted.projection()], fitted.uniform(settings))
             }
-            LightKind::Spot { position, .. } | LightKind::Point { position } => {
-                let half_width = resolution / (resolution - 2.0 * border);
-                let face = |(axis, up)| perspective(half_width, near) * look_to_mat4(position, axis, up);
-                (FACES.map(face).to_vec(), half_width)
+            LightKind::Spot { outer_angle, .. } if outer_angle < WIDEST_SPOT => {
+                let half_width = outer_angle.tan() * widened;
+                (vec![perspective(half_width, near)], perspective_uniform(half_width, near, settings))
+            }
+            LightKind::Spot { .. } | LightKind::Point { .. } => {
+                let face = |(axis, up)| perspective(widened, near) * look_to_mat4(Vec3::ZERO, axis, up);
+                (FACES.map(face).to_vec(), perspective_uniform(widened, near, settings))
             }
         };
-        let is_parallel = matches!(sample.light.kind, LightKind::Directional { .. });
-        let uniform = MapUniform {
-            projection_from_world: projection_from_world[0],
-            plane_from_world: projection_from_world[0].inverse().transpose(),
-            half_width,
-            near,
-            texel: 2.0 * half_width / resolution,
-            resolution,
-            inverse_resolution: 1.0 / resolution,
-            normal_offset: settings.normal_offset,
-            slope_bias: settings.slope_bias,
-            padding: 0,
-            rounding: ROUNDING * if is_parallel { Vec2::X } else { Vec2::Y },
-            padding_to_16: [0; 2],
-        };
+        let projection_from_world = projection_from_light.iter().map(|&face| face * light_from_world).collect();
         Self { projection_from_world, uniform }
     }
+}
+
+fn light_from_world(sample: &LightSample) -> Mat4 {
+    let place = sample.place();
+    Mat4::from_mat3(sample.axes().transpose()) * Mat4::from_translation(-place.w * place.truncate())
 }
 
 fn perspective(half_width: f32, near: f32) -> Mat4 {
     directx::perspective_infinite_reverse(2.0 * half_width.atan(), 1.0, near)
 }
 
-/// An orthographic map along `direction` that holds the whole box, and half its width.
-///
-/// Its middle lies on a grid of whole texels, so that a scene that grows a little does not make its shadows crawl.
-fn fitted((low, high): (Vec3, Vec3), direction: Vec3, resolution: f32, border: f32) -> (Vec<Mat4>, f32) {
-    let view_from_world = look_to_mat4(Vec3::ZERO, direction, tangent_frame(direction).0);
+fn perspective_uniform(half_width: f32, near: f32, settings: &MapSettings) -> MapUniform {
+    let resolution = settings.resolution as f32;
+    MapUniform {
+        origin: Vec2::splat(0.5 * resolution - 0.5),
+        scale: 0.5 * resolution / half_width,
+        depth_scale: near,
+        depth_offset: 0.0,
+        inverse_resolution: 1.0 / resolution,
+        normal_offset: settings.normal_offset,
+        slope_bias: settings.slope_bias,
+        rounding: ROUNDING * Vec2::Y,
+        padding: Vec2::ZERO,
+    }
+}
+
+/// Ends of the box in light space.
+fn box_in_light_space((low, high): (Vec3, Vec3), light_from_world: Mat4) -> (Vec3, Vec3) {
     let corner = |i: u32| Vec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low);
-    let corners: Vec<Vec3> = (0..8).map(|i| view_from_world.transform_point3(corner(i))).collect();
+    let corners: Vec<Vec3> = (0..8).map(|i| light_from_world.transform_point3(corner(i))).collect();
     let least = corners.iter().copied().fold(Vec3::INFINITY, Vec3::min);
     let most = corners.iter().copied().fold(Vec3::NEG_INFINITY, Vec3::max);
-    let half_width = 0.5 * (most - least).xy().max_element() * resolution / (resolution - 2.0 * border);
-    let texel = 2.0 * half_width / resolution;
-    let middle = ((0.5 * (least + most)).xy() / texel).round() * texel;
-    let margin = 1e-3 * (most - least).max_element();
-    // Far before near reverses the depth.
-    let projection_from_view = directx::orthographic(
-        middle.x - half_width,
-        middle.x + half_width,
-        middle.y - half_width,
-        middle.y + half_width,
-        margin - least.z,
-        -margin - most.z,
-    );
-    (vec![projection_from_view * view_from_world], half_width)
+    (least, most)
+}
+
+/// An orthographic map that holds a whole box of light space.
+///
+/// Its middle lies on a grid of whole texels, so that a scene that grows a little does not make its shadows crawl.
+struct Fitted {
+    middle: Vec2,
+    half_width: f32,
+    nearest: f32,
+    farthest: f32,
+}
+
+impl Fitted {
+    fn new((least, most): (Vec3, Vec3), resolution: f32, widened: f32) -> Self {
+        let half_width = 0.5 * (most - least).xy().max_element() * widened;
+        let texel = 2.0 * half_width / resolution;
+        let margin = 1e-3 * (most - least).max_element();
+        Self {
+            middle: ((0.5 * (least + most)).xy() / texel).round() * texel,
+            half_width,
+            nearest: -margin - most.z,
+            farthest: margin - least.z,
+        }
+    }
+
+    fn projection(&self) -> Mat4 {
+        let (low, high) = (self.middle - self.half_width, self.middle + self.half_width);
+        // Far before near reverses the depth.
+        directx::orthographic(low.x, high.x, low.y, high.y, self.farthest, self.nearest)
+    }
+
+    fn uniform(&self, settings: &MapSettings) -> MapUniform {
+        let resolution = settings.resolution as f32;
+        let scale = 0.5 * resolution / self.half_width;
+        let depth_scale = 1.0 / (self.nearest - self.farthest);
+        MapUniform {
+            origin: 0.5 * resolution - 0.5 - scale * self.middle * Vec2::new(1.0, -1.0),
+            scale,
+            depth_scale,
+            depth_offset: -self.farthest * depth_scale,
+            inverse_resolution: 1.0 / resolution,
+            normal_offset: settings.normal_offset,
+            slope_bias: settings.slope_bias,
+            rounding: ROUNDING * Vec2::X,
+            padding: Vec2::ZERO,
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::ids::GroupId;
     use crate::gpu::shaders::{DIRECT_LIGHT_MAP, struct_layout};
+    use crate::scene::{Light, builtin};
 
     #[test]
-    fn the_uniform_is_as_long_as_the_shader_reads_it() {
-        let layout = struct_layout(&DIRECT_LIGHT_MAP, "ShadowMap");
-        assert_eq!(layout.last(), Some(&size_of::<MapUniform>()));
-        assert_eq!(layout[8], std::mem::offset_of!(MapUniform, slope_bias));
+    fn the_uniform_lies_as_the_shader_reads_it() {
+        use std::mem::offset_of;
+        macro_rules! offsets {
+            ($($field:ident),+) => { vec![$(offset_of!(MapUniform, $field)),+, size_of::<MapUniform>()] };
+        }
+        let written = offsets![
+            origin,
+            scale,
+            depth_scale,
+            depth_offset,
+            inverse_resolution,
+            normal_offset,
+            slope_bias,
+            rounding,
+            padding
+        ];
+        assert_eq!(written, struct_layout(&DIRECT_LIGHT_MAP, "ShadowMap"));
+    }
+
+    fn sample(kind: LightKind) -> LightSample {
+        let light =
+            Light { name: String::new(), kind, intensity: Vec3::ONE, range: None, group: GroupId(0), profile: None };
+        LightSample { light, surface_normal: None, lamp: 0 }
     }
 
     #[test]
-    fn a_fitted_map_holds_the_box() {
-        let (low, high) = (Vec3::new(-3.0, 0.0, 1.0), Vec3::new(4.0, 5.0, 9.0));
-        let (maps, _) = fitted((low, high), Vec3::new(0.3, -0.8, 0.5).normalize(), 512.0, 3.0);
+    fn a_directional_map_holds_the_scene() {
+        let scene = builtin::gallery();
+        let (low, high) = scene.bounds();
+        let sun = sample(LightKind::Directional { direction: Vec3::new(0.3, -0.8, 0.5).normalize() });
+        let maps = MapProjection::new((low, high), &sun, &MapSettings::default());
         for point in [low, high, Vec3::new(low.x, high.y, low.z), 0.5 * (low + high)] {
-            let seen = maps[0].project_point3(point);
+            let seen = maps.projection_from_world[0].project_point3(point);
             assert!(
                 seen.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&seen.z),
                 "{point} is at {seen}"
             );
+        }
+    }
+
+    #[test]
+    fn the_uniform_finds_points_where_the_projection_draws_them() {
+        let scene = builtin::gallery();
+        let (low, high) = scene.bounds();
+        let position = low.lerp(high, 0.6);
+        let direction = Vec3::new(0.3, -0.8, 0.5).normalize();
+        let spot = LightKind::Spot { position, direction, inner_angle: 0.4, outer_angle: 0.8 };
+        for light in [sample(spot), sample(LightKind::Directional { direction })] {
+            let map = MapProjection::new((low, high), &light, &MapSettings::default());
+            let point = position + 1.7 * direction + Vec3::new(0.2, 0.1, -0.3);
+            let drawn = map.projection_from_world[0].project_point3(point);
+            // As `in_map` of the shader.
+            let seen = light_from_world(&light).transform_point3(point) * Vec3::new(1.0, 1.0, -1.0);
+            let is_parallel = light.place().w == 0.0;
+            let uniform = &map.uniform;
+            let scale = if is_parallel { uniform.scale } else { uniform.scale / seen.z };
+            let texel = uniform.origin + scale * seen.xy() * Vec2::new(1.0, -1.0);
+            let ahead = if is_parallel { seen.z } else { 1.0 / seen.z };
+            let depth = uniform.depth_offset + uniform.depth_scale * ahead;
+            let expected = (0.5 + 0.5 * drawn.xy() * Vec2::new(1.0, -1.0)) * 2048.0 - 0.5;
+            assert!(texel.distance(expected) < 0.01, "{texel} for {expected}");
+            assert!((depth - drawn.z).abs() < 1e-5 * drawn.z, "{depth} for {}", drawn.z);
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use glam::Vec4;
+use glam::{Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
 use super::casters::Casters;
@@ -15,6 +15,7 @@ use crate::scene::Scene;
 /// What shadows ask of a scene beyond its buffers.
 pub struct ShadowScene {
     scene: Arc<Scene>,
+    bounds: (Vec3, Vec3),
     /// Triangles that throw shadows.
     pub(super) casters: Casters,
     /// Each corner of the casters twice, as `silhouette::Hull` counts them.
@@ -39,6 +40,7 @@ impl ShadowScene {
         });
         Self {
             cutouts: Cutouts::of_scene(gpu, &scene),
+            bounds: scene.bounds(),
             scene,
             casters,
             corners,
@@ -51,6 +53,12 @@ impl ShadowScene {
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.scene
+    }
+
+    /// The box round it.
+    #[must_use]
+    pub fn bounds(&self) -> (Vec3, Vec3) {
+        self.bounds
     }
 
     /// Triangles that throw shadows.

@@ -103,7 +103,7 @@ impl ShadowMapPass {
         sample: &LightSample,
         settings: &MapSettings,
     ) -> ReadableMap {
-        let projection = MapProjection::new(subject.shadows.scene(), sample, settings);
+        let projection = MapProjection::new(subject.shadows.bounds(), sample, settings);
         let shown = Shown::new(subject.scene, &projection.projection_from_world, settings.resolution);
         let mut kept = subject.shadows.maps();
         let (map, is_new) = kept.map(gpu, shown);

@@ -36,7 +36,7 @@ impl RealTimeLight {
             return Ok(lit.into_iter().map(|lit| SampleDecisions { lit, claimed: None }).collect());
         }
         let targets = self.targets_of(gpu, size);
-        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
+        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject);
         self.prepare(gpu, subject, &samples, settings);
         let mut decisions = Vec::with_capacity(samples.len());
         for (index, sample) in samples.iter().enumerate() {

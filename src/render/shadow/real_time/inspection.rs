@@ -57,7 +57,7 @@ impl RealTimeLight {
     ) -> LightTargets {
         let samples = settings.samples(subject.shadows.scene());
         let targets = self.targets_of(gpu, size);
-        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
+        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject);
         self.prepare(gpu, subject, &samples, settings);
         self.prepass.draw(encoder, &targets, subject.frame, subject.seen, subject.look);
         self.mark_shadows(gpu, encoder, &targets, subject, settings, &lights, (index, &samples[index]));

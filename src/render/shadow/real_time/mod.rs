@@ -150,7 +150,7 @@ impl RealTimeLight {
             return LiveLight::Pixels(subject.work("rays, on the processor", draw));
         }
         let targets = self.targets_of(gpu, size);
-        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject.look);
+        let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject);
         subject.work("silhouettes, on the processor", || self.prepare(gpu, subject, &samples, settings));
 
         // Which surfaces are visible, and no light on them.

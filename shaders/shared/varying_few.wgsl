@@ -1,0 +1,25 @@
+// Surface pass: what vertices hand to pixels that add the direct light of a few light samples.
+
+struct Varying {
+    @builtin(position) @invariant position: vec4f,
+    @location(0) @interpolate(perspective, centroid) normal: vec3f,
+    // Of vertex and material.
+    @location(1) colour: vec4f,
+    @location(2) base_and_metallic_uv: vec4f,
+    @location(3) emissive_uv: vec2f,
+    // Radiance of an ideal white surface; centroid, so that it is never extrapolated beyond the triangle.
+    @location(4) @interpolate(perspective, centroid) white_radiance: vec3f,
+    // Of the material where it has no textures.
+    @location(5) @interpolate(flat) emission_and_metallic: vec4f,
+    // Metres, world space.
+    @location(6) @interpolate(perspective, centroid) point: vec3f,
+    // As in shared/lit_point.wgsl, in the space of each light.
+    @location(7) middle_0: vec3f,
+    @location(8) normal_0: vec3f,
+    @location(9) middle_1: vec3f,
+    @location(10) normal_1: vec3f,
+    @location(11) middle_2: vec3f,
+    @location(12) normal_2: vec3f,
+    @location(13) middle_3: vec3f,
+    @location(14) normal_3: vec3f,
+}
