@@ -30,10 +30,14 @@ fn neutral(colour: vec3f) -> vec3f {
     if peak < START {
         return colour;
     }
+    // The new peak is numerator / over, the share of white 1 - over / divisor: brought to two quotients, for which software
+    // drivers take long.
     let room = 1.0 - START;
-    let new_peak = 1.0 - room * room / (peak + room - START);
-    let whitening = 1.0 - 1.0 / (DESATURATION * (peak - new_peak) + 1.0);
-    return mix(colour * (new_peak / peak), vec3f(new_peak), whitening);
+    let over = peak + room - START;
+    let numerator = over - room * room;
+    let loss = peak * over - numerator;
+    let divisor = over + DESATURATION * loss;
+    return (colour * over + DESATURATION * loss * peak) * (numerator / (peak * over)) * (1.0 / divisor);
 }
 
 // Interleaved gradient noise in -0.49..0.49: a hair less than half, so that rounding brings a whole step back

@@ -152,7 +152,6 @@ pub const TONEMAP: Shader = shader!(
     "shared/frame.wgsl",
     "shared/colour.wgsl",
     "shared/display.wgsl",
-    "shared/fullscreen.wgsl",
     "shared/samples_one.wgsl",
     "tonemap.wgsl"
 );
@@ -162,7 +161,6 @@ pub const TONEMAP_SAMPLES: Shader = shader!(
     "shared/frame.wgsl",
     "shared/colour.wgsl",
     "shared/display.wgsl",
-    "shared/fullscreen.wgsl",
     "shared/samples_many.wgsl",
     "tonemap.wgsl"
 );

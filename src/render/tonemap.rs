@@ -31,7 +31,7 @@ impl ToneMapPass {
             layout: Some(&pipeline_layout),
             vertex: wgpu::VertexState {
                 module: &module,
-                entry_point: Some("fullscreen"),
+                entry_point: Some("vertex"),
                 compilation_options: Default::default(),
                 buffers: &[],
             },
@@ -87,8 +87,7 @@ impl ToneMapPass {
 }
 
 fn bind_group_layout(gpu: &Gpu, multisampled: bool) -> wgpu::BindGroupLayout {
-    let entry =
-        |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::FRAGMENT, ty, count: None };
+    let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
     let hdr = wgpu::BindingType::Texture {
         sample_type: wgpu::TextureSampleType::Float { filterable: false },
         view_dimension: wgpu::TextureViewDimension::D2,
@@ -101,6 +100,6 @@ fn bind_group_layout(gpu: &Gpu, multisampled: bool) -> wgpu::BindGroupLayout {
     };
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("tonemap"),
-        entries: &[entry(0, hdr), entry(1, exposure)],
+        entries: &[entry(0, wgpu::ShaderStages::FRAGMENT, hdr), entry(1, wgpu::ShaderStages::VERTEX, exposure)],
     })
 }

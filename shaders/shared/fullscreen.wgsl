@@ -1,7 +1,0 @@
-// One triangle that covers the target; the fragment's position is its pixel.
-
-@vertex
-fn fullscreen(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f {
-    let corner = vec2f(f32((index << 1u) & 2u), f32(index & 2u));
-    return vec4f(corner * 2.0 - 1.0, 0.0, 1.0);
-}
