@@ -20,6 +20,10 @@ override ONE_SAMPLE: bool = false;
 @group(3) @binding(4) var map_1: texture_depth_2d_array;
 @group(3) @binding(5) var map_2: texture_depth_2d_array;
 @group(3) @binding(6) var map_3: texture_depth_2d_array;
+@group(3) @binding(7) var overview_0: texture_2d_array<f32>;
+@group(3) @binding(8) var overview_1: texture_2d_array<f32>;
+@group(3) @binding(9) var overview_2: texture_2d_array<f32>;
+@group(3) @binding(10) var overview_3: texture_2d_array<f32>;
 
 @vertex
 fn vertex(in: Vertex) -> Varying {
@@ -44,15 +48,15 @@ fn vertex(in: Vertex) -> Varying {
 
 @fragment
 fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
-    var direct = received(0u, KIND_0, map_0, receiver(0u, KIND_0, in, is_front, in.middle_0, in.normal_0));
+    var direct = received(0u, KIND_0, map_0, overview_0, receiver(0u, KIND_0, in, is_front, in.middle_0, in.normal_0));
     if NUM_LIGHTS > 1u {
-        direct += received(1u, KIND_1, map_1, receiver(1u, KIND_1, in, is_front, in.middle_1, in.normal_1));
+        direct += received(1u, KIND_1, map_1, overview_1, receiver(1u, KIND_1, in, is_front, in.middle_1, in.normal_1));
     }
     if NUM_LIGHTS > 2u {
-        direct += received(2u, KIND_2, map_2, receiver(2u, KIND_2, in, is_front, in.middle_2, in.normal_2));
+        direct += received(2u, KIND_2, map_2, overview_2, receiver(2u, KIND_2, in, is_front, in.middle_2, in.normal_2));
     }
     if NUM_LIGHTS > 3u {
-        direct += received(3u, KIND_3, map_3, receiver(3u, KIND_3, in, is_front, in.middle_3, in.normal_3));
+        direct += received(3u, KIND_3, map_3, overview_3, receiver(3u, KIND_3, in, is_front, in.middle_3, in.normal_3));
     }
     return surface_colour(in, is_front, direct);
 }
@@ -69,11 +73,17 @@ fn receiver(index: u32, kind: u32, in: Varying, is_front: bool, middle: vec3f, n
     return Receiver(from_light(lights[index], kind, point), facet, shading_normal);
 }
 
-fn received(index: u32, kind: u32, map: texture_depth_2d_array, at: Receiver) -> vec3f {
+fn received(
+    index: u32,
+    kind: u32,
+    map: texture_depth_2d_array,
+    overview: texture_2d_array<f32>,
+    at: Receiver
+) -> vec3f {
     let arrival = arrival(kind, at.from_light);
     let received = irradiance(lights[index], kind, arrival, at.normal);
     if !HAS_MAPS {
         return received;
     }
-    return received * seen_share(kind, arrival, shadow_maps[index], map, map_sampler, at);
+    return received * seen_share(any(received > vec3f(0.0)), kind, arrival, shadow_maps[index], map, overview, map_sampler, at);
 }

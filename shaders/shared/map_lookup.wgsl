@@ -1,23 +1,4 @@
-// What a shadow map sees is lit. Written by src/render/shadow/map_projection.rs.
-
-struct ShadowMap {
-    // Place of a point in the map, texels = origin + scale x (right, down) of light space, per metre ahead where light is
-    // not parallel; the middles of texels are whole numbers.
-    origin: vec2f,
-    scale: f32,
-    // Depth = depth_scale / ahead, or depth_offset + depth_scale x ahead where light is parallel.
-    depth_scale: f32,
-    depth_offset: f32,
-    // 1 over the texels across a face.
-    inverse_resolution: f32,
-    // Shift of a point along its normal, texels.
-    normal_offset: f32,
-    // Shift towards the light: as deep as the surface falls over so many texels.
-    slope_bias: f32,
-    // The least that a surface is taken to fall over a texel: of all depths, and as a share of the depth.
-    rounding: vec2f,
-    padding: vec2f,
-}
+// What a shadow map sees is lit.
 
 // Another bit of the kind of a light: its map has six faces round it, in the order +X -X +Y -Y +Z -Z; else one, towards -Z.
 const HAS_CUBE: u32 = 32u;
@@ -28,12 +9,14 @@ override PCF_RADIUS: i32 = 1;
 // Points are shifted along their normal.
 override HAS_NORMAL_OFFSET: bool = true;
 
-// Share of a light sample that its map lets through to a point.
+// Share of a light sample that its map lets through to a point, which receives light or not.
 fn seen_share(
+    receives: bool,
     kind: u32,
     arrival: Arrival,
     shadow_map: ShadowMap,
-    depth: texture_depth_2d_array,
+    map: texture_depth_2d_array,
+    overview: texture_2d_array<f32>,
     gathered: sampler,
     at: Receiver
 ) -> f32 {
@@ -43,8 +26,9 @@ fn seen_share(
     }
     // A smooth normal may see light that the triangle itself turns its back on.
     let faces_light = dot(at.facet, arrival.to_light) > 0.0;
+    let matters = receives && faces_light;
     let place = in_map(kind, shadow_map, from_light, at.facet);
-    return select(0.0, lit_share(shadow_map, depth, gathered, place), faces_light);
+    return select(0.0, lit_share(matters, shadow_map, map, overview, gathered, place), matters);
 }
 
 // Away from the surface, the more the flatter the light falls on it.
@@ -85,29 +69,43 @@ fn in_map(kind: u32, shadow_map: ShadowMap, from_light: vec3f, facet: vec3f) -> 
 
 // Mean over the texels round a point, each compared with the depth of the surface in its middle. Of the texels in a row,
 // the first and the last count by the share that the window covers of them.
-fn lit_share(shadow_map: ShadowMap, map: texture_depth_2d_array, gathered: sampler, at: MapPoint) -> f32 {
-    let least = shadow_map.rounding.x + shadow_map.rounding.y * at.depth;
-    let depth = at.depth + shadow_map.slope_bias * (abs(at.fall.x) + abs(at.fall.y) + least);
+fn lit_share(
+    matters: bool,
+    shadow_map: ShadowMap,
+    map: texture_depth_2d_array,
+    overview: texture_2d_array<f32>,
+    gathered: sampler,
+    at: MapPoint
+) -> f32 {
+    let fall = abs(at.fall.x) + abs(at.fall.y) + least_fall(shadow_map.rounding, at.depth);
+    let depth = at.depth + shadow_map.slope_bias * fall;
+    // Where all texels show one plane, the point is on or before it, or behind.
+    let block = textureLoad(overview, vec2u(at.place + 0.5) / BLOCK, at.layer, 0);
+    let is_plane = block.w > 0.0;
+    let before_plane = select(0.0, 1.0, depth >= block.x + block.y * at.place.x + block.z * at.place.y);
     let share = at.place - floor(at.place);
     var sum = 0.0;
-    for (var y = 0; y <= PCF_RADIUS; y++) {
-        for (var x = 0; x <= PCF_RADIUS; x++) {
-            // Two by two, first those below.
-            let first = vec2f(vec2i(2 * x, 2 * y) - PCF_RADIUS);
-            let corner = (floor(at.place) + first + 1.0) * shadow_map.inverse_resolution;
-            let stored = textureGather(map, gathered, corner, at.layer);
-            let offset = first - share;
-            let right = offset.x + vec4f(0.0, 1.0, 1.0, 0.0);
-            let down = offset.y + vec4f(1.0, 1.0, 0.0, 0.0);
-            let surface = depth + at.fall.x * right + at.fall.y * down;
-            let before = select(vec2f(1.0), 1.0 - share, vec2i(x, y) == vec2i(0));
-            let after = select(vec2f(1.0), share, vec2i(x, y) == vec2i(PCF_RADIUS));
-            let weights = vec4f(before.x, after.x, after.x, before.x) * vec4f(after.yy, before.yy);
-            sum += dot(select(vec4f(0.0), weights, surface >= stored), vec4f(1.0));
-        }
+    // Software drivers go through a loop once, whether it is meant or not: then not far into memory.
+    let is_enough = is_plane || !matters;
+    let num_gathers = select((PCF_RADIUS + 1) * (PCF_RADIUS + 1), 0, is_enough);
+    let middle = select(floor(at.place), vec2f(0.0), is_enough);
+    for (var i = 0; i < num_gathers; i++) {
+        // Two by two, first those below.
+        let number = vec2i(i % (PCF_RADIUS + 1), i / (PCF_RADIUS + 1));
+        let first = vec2f(2 * number - PCF_RADIUS);
+        let corner = (middle + first + 1.0) * shadow_map.inverse_resolution;
+        let stored = textureGather(map, gathered, corner, at.layer);
+        let offset = first - share;
+        let right = offset.x + vec4f(0.0, 1.0, 1.0, 0.0);
+        let down = offset.y + vec4f(1.0, 1.0, 0.0, 0.0);
+        let surface = depth + at.fall.x * right + at.fall.y * down;
+        let before = select(vec2f(1.0), 1.0 - share, number == vec2i(0));
+        let after = select(vec2f(1.0), share, number == vec2i(PCF_RADIUS));
+        let weights = vec4f(before.x, after.x, after.x, before.x) * vec4f(after.yy, before.yy);
+        sum += dot(select(vec4f(0.0), weights, surface >= stored), vec4f(1.0));
     }
     let width = f32(2 * PCF_RADIUS + 1);
-    return sum / (width * width);
+    return select(sum / (width * width), before_plane, is_plane);
 }
 
 fn cube_face(direction: vec3f) -> u32 {

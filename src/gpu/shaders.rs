@@ -66,6 +66,7 @@ pub const SURFACE_FEW_LIGHTS: Shader = shader!(
     "shared/material.wgsl",
     "shared/facet.wgsl",
     "shared/light_sample.wgsl",
+    "shared/shadow_map.wgsl",
     "shared/map_lookup.wgsl",
     "shared/varying_few.wgsl",
     "surface.wgsl",
@@ -107,6 +108,8 @@ pub const CUTOUT_SHADOW: Shader = shader!(
 );
 /// Depth as a light sees it.
 pub const SHADOW_MAP: Shader = shader!("shadow map", "shared/frame.wgsl", "shared/material.wgsl", "shadow_map.wgsl");
+/// Planes that blocks of a shadow map show.
+pub const MAP_OVERVIEW: Shader = shader!("map overview", "shared/shadow_map.wgsl", "map_overview.wgsl");
 /// Direct light of one sample where its shadow map sees the point.
 pub const DIRECT_LIGHT_MAP: Shader = shader!(
     "direct light, map",
@@ -115,6 +118,7 @@ pub const DIRECT_LIGHT_MAP: Shader = shader!(
     "shared/light_sample.wgsl",
     "shared/one_light.wgsl",
     "shared/lit_point.wgsl",
+    "shared/shadow_map.wgsl",
     "shared/map_lookup.wgsl",
     "shared/visibility_map.wgsl",
     "direct_light.wgsl"
@@ -140,6 +144,7 @@ pub const MAP_FACES: Shader = shader!(
     "shared/colour.wgsl",
     "shared/light_sample.wgsl",
     "shared/one_light.wgsl",
+    "shared/shadow_map.wgsl",
     "shared/map_lookup.wgsl",
     "shared/visibility_map.wgsl",
     "map_faces.wgsl"
@@ -178,6 +183,7 @@ pub const ALL: &[&Shader] = &[
     &SHADOW_VOLUME,
     &CUTOUT_SHADOW,
     &SHADOW_MAP,
+    &MAP_OVERVIEW,
     &DIRECT_LIGHT_MAP,
     &PLANAR_SHADOW,
     &VISIBLE_POINTS,

@@ -37,7 +37,7 @@ impl Walkthrough {
         let settings = sight.look.shadows.as_ref()?;
         let last = self.screen.canvas.batch().filter(|_| self.adds_up(sight))?;
         let in_batch = |number| ShadowSettings { batch: Some(Batch::whole(number)), ..settings.clone() };
-        let length = |number| in_batch(number).samples(sight.shadows.scene()).len();
+        let length = |number| in_batch(number).samples(&sight.shadows).len();
         let is_whole = last.first.saturating_add(last.count) >= length(last.number);
         let (number, first) = if is_whole { (last.number + 1, 0) } else { (last.number, last.first + last.count) };
         if number >= num_batches(settings.light_samples) {

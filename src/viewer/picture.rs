@@ -88,7 +88,7 @@ impl Walkthrough {
         let shadows = sight.look.shadows.as_ref();
         let fault = shadows.and_then(|settings| known_fault(&sight.shadows, &sight.view, settings));
         self.inquiry.fault = fault.map(|fault| shadow_notes::in_words(fault, scene));
-        self.inquiry.num_light_samples = shadows.map_or(0, |settings| settings.samples(scene).len());
+        self.inquiry.num_light_samples = shadows.map_or(0, |settings| settings.samples(&sight.shadows).len());
     }
 
     /// Nothing has changed: begins to trace when that has lasted long enough, and where rays show the same light.

@@ -50,3 +50,26 @@ fn maps_draw_no_dots_where_triangles_meet() {
     let dots = pairs.filter(|(map, none)| (map[0] - none[0]).abs() > 0.01 * none[0]).count();
     assert_eq!(dots, 0);
 }
+
+#[test]
+fn things_of_a_few_texels_throw_their_shadows() {
+    let Some(gpu) = gpu() else { return };
+    let mut stage = Stage::new();
+    stage.light(LightKind::Directional { direction: Vec3::new(0.2, -1.0, -0.1).normalize() });
+    stage.seen(Vec3::new(0.0, 3.0, 3.0), Vec3::ZERO);
+    // Some five texels wide, wherever in a block of eight they lie.
+    let width = 0.1;
+    for (column, row) in (0..14).flat_map(|column| (0..14).map(move |row| (column, row))) {
+        let corner = Vec3::new(-2.5 + 0.37 * column as f32, 0.3, -3.0 + 0.41 * row as f32);
+        stage.quad(corner, width * Vec3::X, -width * Vec3::Z);
+    }
+    let shot = stage.shot(gpu);
+    let mut map = settings(ShadowTechnique::Map);
+    (map.maps.resolution, map.maps.pcf_radius) = (512, 0);
+    let pictures = [&map, &settings(ShadowTechnique::Raytraced), &settings(ShadowTechnique::None)]
+        .map(|settings| shot.picture(gpu, settings, 1).radiance);
+    let [by_map, by_rays, lit] = pictures;
+    let dark = |picture: &[[f32; 4]]| picture.iter().zip(&lit).filter(|(seen, lit)| seen[0] < 0.5 * lit[0]).count();
+    let (by_map, by_rays) = (dark(&by_map), dark(&by_rays));
+    assert!(by_rays > 1000 && by_map.abs_diff(by_rays) < by_rays / 10, "{by_map} pixels are dark, not {by_rays}");
+}

@@ -1,7 +1,6 @@
 //! Light samples in batches: while nothing moves, pictures with a few samples each add up to one with many.
 
-use super::light_samples::{LightSample, light_samples};
-use crate::scene::Scene;
+use super::light_samples::LightSample;
 
 /// Points on each lamp that all batches have together.
 pub const MOST_POINTS: u32 = 256;
@@ -37,24 +36,23 @@ pub fn num_batches(per_lamp: u32) -> u32 {
     MOST_POINTS / per_lamp.next_power_of_two().clamp(1, MOST_POINTS)
 }
 
-/// The samples of one batch, as strong as all together: the mean over all batches is the light of [`MOST_POINTS`]
-/// points a lamp. After any number of batches the points so far are spread evenly.
+/// Of `all` samples of a scene, [`MOST_POINTS`] a lamp, those of one batch, as strong as all together: the mean over all
+/// batches is the light of all. After any number of batches the points so far are spread evenly.
 #[must_use]
-pub fn batch_of_samples(scene: &Scene, per_lamp: u32, radius: f32, number: u32) -> Vec<LightSample> {
+pub fn batch_of_samples(all: &[LightSample], per_lamp: u32, number: u32) -> Vec<LightSample> {
     let count = num_batches(per_lamp);
     // Reversed bits jump about (van der Corput 1935).
     let wanted = if count == 1 { 0 } else { number.reverse_bits() >> (32 - count.trailing_zeros()) };
-    let mut samples = light_samples(scene, MOST_POINTS, radius);
     let mut batch = Vec::new();
-    for lamp in samples.chunk_by_mut(|a, b| a.lamp == b.lamp) {
-        let is_one_point = lamp.len() == 1;
-        for (index, sample) in lamp.iter_mut().enumerate() {
-            if is_one_point {
-                batch.push(sample.clone());
-            } else if index as u32 % count == wanted {
-                sample.light.intensity *= count as f32;
-                batch.push(sample.clone());
-            }
+    for lamp in all.chunk_by(|a, b| a.lamp == b.lamp) {
+        if lamp.len() == 1 {
+            batch.extend_from_slice(lamp);
+            continue;
+        }
+        for sample in lamp.iter().skip(wanted as usize).step_by(count as usize) {
+            let mut sample = sample.clone();
+            sample.light.intensity *= count as f32;
+            batch.push(sample);
         }
     }
     batch
@@ -63,6 +61,7 @@ pub fn batch_of_samples(scene: &Scene, per_lamp: u32, radius: f32, number: u32) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::render::shadow::light_samples;
     use crate::scene::builtin;
     use glam::Vec3;
 
@@ -75,7 +74,7 @@ mod tests {
         for per_lamp in [1, 16, 64, 256] {
             let count = num_batches(per_lamp);
             assert_eq!(count * per_lamp, MOST_POINTS);
-            let batches = (0..count).map(|number| sum(&batch_of_samples(&scene, per_lamp, 0.0, number)));
+            let batches = (0..count).map(|number| sum(&batch_of_samples(&all, per_lamp, number)));
             let mean = batches.sum::<Vec3>() / count as f32;
             assert!((mean / sum(&all) - 1.0).abs().max_element() < 1e-4, "{per_lamp}: {mean}, not {}", sum(&all));
         }
@@ -83,9 +82,9 @@ mod tests {
 
     #[test]
     fn no_point_comes_twice() {
-        let scene = builtin::cornell();
+        let all = light_samples(&builtin::cornell(), MOST_POINTS, 0.0);
         let mut places: Vec<_> = (0..num_batches(8))
-            .flat_map(|number| batch_of_samples(&scene, 8, 0.0, number))
+            .flat_map(|number| batch_of_samples(&all, 8, number))
             .map(|sample| sample.place().to_array().map(f32::to_bits))
             .collect();
         places.sort_unstable();

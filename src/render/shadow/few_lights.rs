@@ -5,7 +5,7 @@ use bytemuck::Zeroable;
 
 use super::light_samples::LightSample;
 use super::light_uniforms::LightUniform;
-use super::map_pipelines::{DEPTH_ARRAY, UNIFORM, entry, uniform_buffer};
+use super::map_pipelines::{DEPTH_ARRAY, GATHERED, OVERVIEW_ARRAY, UNIFORM, entry, uniform_buffer};
 use super::map_projection::MapUniform;
 use super::real_time::Subject;
 use super::shadow_map::ShadowMapPass;
@@ -65,7 +65,7 @@ impl FewLights {
         if !can_add || settings.batch.is_some() {
             return None;
         }
-        let samples = settings.samples(subject.shadows.scene());
+        let samples = settings.samples(subject.shadows);
         (1..=MAX_LIGHTS).contains(&samples.len()).then(|| Self::new(gpu, encoder, maps, subject, settings, &samples))
     }
 
@@ -88,7 +88,7 @@ impl FewLights {
         let mut lights = [LightUniform::zeroed(); MAX_LIGHTS];
         let mut projections = [MapUniform::zeroed(); MAX_LIGHTS];
         // Every binding must be bound.
-        let mut depths = [(); MAX_LIGHTS].map(|()| maps.no_map().clone());
+        let mut textures = [(); MAX_LIGHTS].map(|()| maps.no_map().clone());
         for (index, sample) in samples.iter().enumerate() {
             lights[index] = LightUniform::new(sample, subject);
             kinds.kinds[index] = lights[index].kind();
@@ -96,7 +96,7 @@ impl FewLights {
                 let map = maps.map(gpu, encoder, subject, sample, &settings.maps);
                 projections[index] = map.uniform;
                 kinds.kinds[index] |= if map.num_faces == 6 { HAS_CUBE } else { 0 };
-                depths[index] = map.depth;
+                textures[index] = map.textures;
             }
         }
         let [lights, projections] =
@@ -106,9 +106,10 @@ impl FewLights {
             wgpu::BindGroupEntry { binding: 1, resource: projections.as_entire_binding() },
             wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(maps.sampler()) },
         ];
-        entries.extend(depths.iter().zip(3..).map(|(depth, binding)| wgpu::BindGroupEntry {
+        let (depths, overviews) = (textures.iter().map(|map| &map.depth), textures.iter().map(|map| &map.overview));
+        entries.extend(depths.chain(overviews).zip(3..).map(|(view, binding)| wgpu::BindGroupEntry {
             binding,
-            resource: wgpu::BindingResource::TextureView(depth),
+            resource: wgpu::BindingResource::TextureView(view),
         }));
         let layout = &layout(gpu);
         let descriptor = wgpu::BindGroupDescriptor { label: Some("few lights"), layout, entries: &entries };
@@ -119,10 +120,10 @@ impl FewLights {
 /// Layout of bind group 3 of the surface pass.
 pub fn layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let read = wgpu::ShaderStages::FRAGMENT;
-    let gathered = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
     let mut entries =
-        vec![entry(0, wgpu::ShaderStages::VERTEX_FRAGMENT, UNIFORM), entry(1, read, UNIFORM), entry(2, read, gathered)];
-    entries.extend((3..).take(MAX_LIGHTS).map(|binding| entry(binding, read, DEPTH_ARRAY)));
+        vec![entry(0, wgpu::ShaderStages::VERTEX_FRAGMENT, UNIFORM), entry(1, read, UNIFORM), entry(2, read, GATHERED)];
+    let textures = [DEPTH_ARRAY; MAX_LIGHTS].into_iter().chain([OVERVIEW_ARRAY; MAX_LIGHTS]);
+    entries.extend(textures.zip(3..).map(|(texture, binding)| entry(binding, read, texture)));
     gpu.device
         .create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("few lights"), entries: &entries })
 }

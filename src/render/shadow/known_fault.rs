@@ -29,7 +29,7 @@ pub fn known_fault(shadows: &ShadowScene, view: &View, settings: &ShadowSettings
     match settings.technique {
         ShadowTechnique::VolumeDepthPass if !settings.volumes.near_plane_cure => {
             let corners = near_plane(view);
-            let samples = settings.samples(shadows.scene());
+            let samples = settings.samples(shadows);
             samples.iter().find_map(|sample| in_shadow(shadows, &corners, sample.place(), sample.lamp))
         }
         ShadowTechnique::VolumeDepthFail => settings.volumes.far_plane.map(|_| KnownFault::FarPlaneCutsVolumes),

@@ -3,10 +3,11 @@
 
 use glam::Mat4;
 
-use super::map_pipelines::DEPTH_FORMAT;
+use super::map_overview::num_blocks;
+use super::map_pipelines::{DEPTH_FORMAT, OVERVIEW_FORMAT};
 use crate::gpu::{Gpu, SceneBuffers};
 
-/// Texels that are kept at most: 256 MiB, sixteen faces of the usual size.
+/// Texels that are kept at most: 256 MiB, sixteen faces of the usual size, and a sixteenth of it for their overviews.
 const MAX_TEXELS: usize = 1 << 26;
 
 /// A map on the device.
@@ -14,8 +15,19 @@ pub struct Map {
     shown: Shown,
     /// One view a face, to draw to.
     pub faces: Vec<wgpu::TextureView>,
+    /// The same of the overview.
+    pub overview_faces: Vec<wgpu::TextureView>,
     /// All faces, to read.
-    pub all: wgpu::TextureView,
+    pub textures: MapTextures,
+}
+
+/// All faces of a map, to read.
+#[derive(Clone)]
+pub struct MapTextures {
+    /// Depth of each texel.
+    pub depth: wgpu::TextureView,
+    /// Plane that each block of texels shows.
+    pub overview: wgpu::TextureView,
 }
 
 /// What a map shows: the triangles of which buffers, from where, and how finely.
@@ -76,30 +88,47 @@ impl MapCache {
 impl Map {
     fn new(gpu: &Gpu, shown: Shown) -> Self {
         let num_faces = shown.projection_from_world.len() as u32;
-        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-            label: Some("shadow map"),
-            size: wgpu::Extent3d {
-                width: shown.resolution,
-                height: shown.resolution,
-                depth_or_array_layers: num_faces,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format: DEPTH_FORMAT,
-            usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
-            view_formats: &[],
-        });
-        let view = |dimension, first, count| {
-            texture.create_view(&wgpu::TextureViewDescriptor {
-                dimension: Some(dimension),
-                base_array_layer: first,
-                array_layer_count: Some(count),
-                ..Default::default()
-            })
-        };
-        let faces = (0..num_faces).map(|face| view(wgpu::TextureViewDimension::D2, face, 1)).collect();
-        let all = view(wgpu::TextureViewDimension::D2Array, 0, num_faces);
-        Self { shown, faces, all }
+        let depth = texture(gpu, DEPTH_FORMAT, shown.resolution, num_faces);
+        let overview = texture(gpu, OVERVIEW_FORMAT, num_blocks(shown.resolution), num_faces);
+        let textures = MapTextures { depth: all_faces(&depth), overview: all_faces(&overview) };
+        Self { shown, faces: each_face(&depth), overview_faces: each_face(&overview), textures }
     }
+}
+
+impl MapTextures {
+    /// Stand where a map is bound and not read.
+    pub fn none(gpu: &Gpu) -> Self {
+        let [depth, overview] = [DEPTH_FORMAT, OVERVIEW_FORMAT].map(|format| all_faces(&texture(gpu, format, 1, 1)));
+        Self { depth, overview }
+    }
+}
+
+fn texture(gpu: &Gpu, format: wgpu::TextureFormat, width: u32, num_faces: u32) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("shadow map"),
+        size: wgpu::Extent3d { width, height: width, depth_or_array_layers: num_faces },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    })
+}
+
+fn all_faces(texture: &wgpu::Texture) -> wgpu::TextureView {
+    let dimension = Some(wgpu::TextureViewDimension::D2Array);
+    texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() })
+}
+
+fn each_face(texture: &wgpu::Texture) -> Vec<wgpu::TextureView> {
+    let face = |face| {
+        texture.create_view(&wgpu::TextureViewDescriptor {
+            dimension: Some(wgpu::TextureViewDimension::D2),
+            base_array_layer: face,
+            array_layer_count: Some(1),
+            ..Default::default()
+        })
+    };
+    (0..texture.depth_or_array_layers()).map(face).collect()
 }

@@ -7,6 +7,8 @@ use crate::gpu::Gpu;
 
 /// Of every map.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+/// Of every overview.
+pub const OVERVIEW_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// A small buffer of numbers.
 pub fn uniform_buffer(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
@@ -33,6 +35,16 @@ pub const DEPTH_ARRAY: wgpu::BindingType = wgpu::BindingType::Texture {
     multisampled: false,
 };
 
+/// Overviews of all faces of a map.
+pub const OVERVIEW_ARRAY: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+    view_dimension: wgpu::TextureViewDimension::D2Array,
+    multisampled: false,
+};
+
+/// How texels are gathered.
+pub const GATHERED: wgpu::BindingType = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
+
 /// Layout of bind group 1 of the pass that draws a face.
 pub fn face_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
@@ -43,11 +55,15 @@ pub fn face_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
 
 /// Layout of bind group 2 of the pass that reads the map.
 pub fn read_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::NonFiltering);
     let read = wgpu::ShaderStages::FRAGMENT;
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("shadow map"),
-        entries: &[entry(0, read, UNIFORM), entry(1, read, DEPTH_ARRAY), entry(2, read, sampler)],
+        entries: &[
+            entry(0, read, UNIFORM),
+            entry(1, read, DEPTH_ARRAY),
+            entry(2, read, GATHERED),
+            entry(3, read, OVERVIEW_ARRAY),
+        ],
     })
 }
 

@@ -52,7 +52,8 @@ pub struct MapUniform {
     normal_offset: f32,
     slope_bias: f32,
     rounding: Vec2,
-    padding: Vec2,
+    reach: u32,
+    padding: u32,
 }
 
 impl MapProjection {
@@ -104,8 +105,14 @@ fn perspective_uniform(half_width: f32, near: f32, settings: &MapSettings) -> Ma
         normal_offset: settings.normal_offset,
         slope_bias: settings.slope_bias,
         rounding: ROUNDING * Vec2::Y,
-        padding: Vec2::ZERO,
+        reach: reach(settings),
+        padding: 0,
     }
+}
+
+/// Texels each way that are looked at beside the one in which a point lies: where it lies decides over one more.
+fn reach(settings: &MapSettings) -> u32 {
+    settings.pcf_radius + 1
 }
 
 /// Ends of the box in light space.
@@ -159,7 +166,8 @@ impl Fitted {
             normal_offset: settings.normal_offset,
             slope_bias: settings.slope_bias,
             rounding: ROUNDING * Vec2::X,
-            padding: Vec2::ZERO,
+            reach: reach(settings),
+            padding: 0,
         }
     }
 }
@@ -186,6 +194,7 @@ mod tests {
             normal_offset,
             slope_bias,
             rounding,
+            reach,
             padding
         ];
         assert_eq!(written, struct_layout(&DIRECT_LIGHT_MAP, "ShadowMap"));

@@ -28,6 +28,7 @@ mod light_targets;
 mod light_uniforms;
 mod map_cache;
 mod map_light;
+mod map_overview;
 mod map_pipelines;
 mod map_projection;
 mod near_plane;
@@ -48,7 +49,8 @@ pub use scene::ShadowScene;
 pub use shadow_map::MapSettings;
 pub use shadow_volume::VolumeSettings;
 
-use crate::scene::Scene;
+use std::sync::Arc;
+
 use batch::batch_of_samples;
 
 /// How shadows are found.
@@ -90,15 +92,11 @@ pub struct ShadowSettings {
 impl ShadowSettings {
     /// The lights of a scene as points and directions.
     #[must_use]
-    pub fn samples(&self, scene: &Scene) -> Vec<LightSample> {
-        match self.batch {
-            Some(batch) => batch_of_samples(scene, self.light_samples, self.light_radius, batch.number)
-                .into_iter()
-                .skip(batch.first)
-                .take(batch.count)
-                .collect(),
-            None => light_samples(scene, self.light_samples, self.light_radius),
-        }
+    pub fn samples(&self, shadows: &ShadowScene) -> Arc<[LightSample]> {
+        let Some(batch) = self.batch else { return shadows.light_samples(self.light_samples, self.light_radius) };
+        let all = shadows.light_samples(MOST_POINTS, self.light_radius);
+        let samples = batch_of_samples(&all, self.light_samples, batch.number);
+        samples.into_iter().skip(batch.first).take(batch.count).collect()
     }
 
     /// `technique` with the settings that show none of its faults.

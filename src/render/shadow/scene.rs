@@ -8,6 +8,7 @@ use wgpu::util::DeviceExt;
 use super::casters::Casters;
 use super::cutout_shadow::Cutouts;
 use super::exact_rays::ExactRays;
+use super::light_samples::{LightSample, light_samples};
 use super::map_cache::MapCache;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
@@ -25,6 +26,15 @@ pub struct ShadowScene {
     /// Built when the truth is first asked for.
     rays: OnceLock<ExactRays>,
     maps: Mutex<MapCache>,
+    /// Those that were asked for last.
+    samples: Mutex<Option<KeptSamples>>,
+}
+
+/// Light samples, and from what they were made.
+struct KeptSamples {
+    per_lamp: u32,
+    radius: f32,
+    samples: Arc<[LightSample]>,
 }
 
 impl ShadowScene {
@@ -46,6 +56,7 @@ impl ShadowScene {
             corners,
             rays: OnceLock::new(),
             maps: Mutex::default(),
+            samples: Mutex::default(),
         }
     }
 
@@ -65,6 +76,18 @@ impl ShadowScene {
     #[must_use]
     pub fn casters(&self) -> &Casters {
         &self.casters
+    }
+
+    /// Its lights as [`light_samples`] are, kept until others are asked for: whatever its size, a picture needs them.
+    pub(super) fn light_samples(&self, per_lamp: u32, radius: f32) -> Arc<[LightSample]> {
+        let mut kept = self.samples.lock().unwrap_or_else(PoisonError::into_inner);
+        let same = kept.as_ref().filter(|kept| (kept.per_lamp, kept.radius) == (per_lamp, radius));
+        if let Some(same) = same {
+            return Arc::clone(&same.samples);
+        }
+        let samples: Arc<[_]> = light_samples(&self.scene, per_lamp, radius).into();
+        *kept = Some(KeptSamples { per_lamp, radius, samples: Arc::clone(&samples) });
+        samples
     }
 
     /// Shadow maps of its lights.

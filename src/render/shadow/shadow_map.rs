@@ -5,8 +5,9 @@
 use glam::Mat4;
 
 use super::light_samples::LightSample;
-use super::map_cache::Shown;
-use super::map_pipelines::{DEPTH_FORMAT, face_layout, pipeline, read_layout, uniform_buffer};
+use super::map_cache::{MapTextures, Shown};
+use super::map_overview::OverviewPass;
+use super::map_pipelines::{face_layout, pipeline, read_layout, uniform_buffer};
 use super::map_projection::{MapProjection, MapUniform};
 use super::real_time::Subject;
 use super::solid::bind_mesh;
@@ -43,7 +44,8 @@ pub struct ShadowMapPass {
     face_layout: wgpu::BindGroupLayout,
     read_layout: wgpu::BindGroupLayout,
     sampler: wgpu::Sampler,
-    no_map: wgpu::TextureView,
+    overview: OverviewPass,
+    no_map: MapTextures,
 }
 
 /// A map that has been drawn.
@@ -53,7 +55,7 @@ pub struct ReadableMap {
     /// What the pass that reads it needs to know.
     pub uniform: MapUniform,
     /// All faces.
-    pub depth: wgpu::TextureView,
+    pub textures: MapTextures,
 }
 
 impl ShadowMapPass {
@@ -75,7 +77,8 @@ impl ShadowMapPass {
             read_layout: read_layout(gpu),
             face_layout,
             sampler,
-            no_map: no_map(gpu),
+            overview: OverviewPass::new(gpu),
+            no_map: MapTextures::none(gpu),
         }
     }
 
@@ -90,7 +93,7 @@ impl ShadowMapPass {
     }
 
     /// Stands where a map is bound and not read.
-    pub fn no_map(&self) -> &wgpu::TextureView {
+    pub fn no_map(&self) -> &MapTextures {
         &self.no_map
     }
 
@@ -111,9 +114,10 @@ impl ShadowMapPass {
             for (projection_from_world, face) in projection.projection_from_world.iter().zip(&map.faces) {
                 self.draw_face(gpu, encoder, subject, projection_from_world, face);
             }
+            self.overview.draw(gpu, encoder, map, &projection.uniform, &self.sampler);
         }
         let num_faces = projection.projection_from_world.len() as u32;
-        ReadableMap { num_faces, uniform: projection.uniform, depth: map.all.clone() }
+        ReadableMap { num_faces, uniform: projection.uniform, textures: map.textures.clone() }
     }
 
     /// A map, bound for the pass that reads it alone.
@@ -124,8 +128,12 @@ impl ShadowMapPass {
             layout: &self.read_layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: uniform.as_entire_binding() },
-                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&map.depth) },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(&map.textures.depth) },
                 wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.sampler) },
+                wgpu::BindGroupEntry {
+                    binding: 3,
+                    resource: wgpu::BindingResource::TextureView(&map.textures.overview),
+                },
             ],
         })
     }
@@ -165,20 +173,4 @@ impl ShadowMapPass {
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);
         }
     }
-}
-
-/// One texel.
-fn no_map(gpu: &Gpu) -> wgpu::TextureView {
-    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("no shadow map"),
-        size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: DEPTH_FORMAT,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING,
-        view_formats: &[],
-    });
-    let dimension = Some(wgpu::TextureViewDimension::D2Array);
-    texture.create_view(&wgpu::TextureViewDescriptor { dimension, ..Default::default() })
 }

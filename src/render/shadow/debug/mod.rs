@@ -78,7 +78,7 @@ impl DebugPass {
         debug: ShadowDebug,
     ) {
         let settings = subject.look.shadows.clone().unwrap_or(ShadowSettings::new(ShadowTechnique::VolumeDepthFail));
-        let samples = settings.samples(subject.shadows.scene());
+        let samples = settings.samples(subject.shadows);
         let Some(last) = samples.len().checked_sub(1) else { return };
         let index = debug.light.min(last);
         match debug.view {

@@ -30,7 +30,7 @@ impl RealTimeLight {
         settings: &ShadowSettings,
     ) -> Result<Vec<SampleDecisions>, GpuError> {
         assert_eq!(self.samples, 1, "decisions are taken pixel by pixel");
-        let samples = settings.samples(subject.shadows.scene());
+        let samples = settings.samples(subject.shadows);
         if settings.technique == ShadowTechnique::Raytraced {
             let lit = self.raytraced.decisions(gpu, size, subject, &samples)?;
             return Ok(lit.into_iter().map(|lit| SampleDecisions { lit, claimed: None }).collect());

@@ -55,7 +55,7 @@ impl RealTimeLight {
         settings: &ShadowSettings,
         index: usize,
     ) -> LightTargets {
-        let samples = settings.samples(subject.shadows.scene());
+        let samples = settings.samples(subject.shadows);
         let targets = self.targets_of(gpu, size);
         let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject);
         self.prepare(gpu, subject, &samples, settings);

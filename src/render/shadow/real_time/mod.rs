@@ -142,7 +142,7 @@ impl RealTimeLight {
             subject.lap(encoder, "shadow maps");
             return LiveLight::Few(lights);
         }
-        let samples = settings.samples(subject.shadows.scene());
+        let samples = settings.samples(subject.shadows);
         let goes_on = settings.batch.is_some_and(|batch| !batch.is_first());
         if settings.technique == ShadowTechnique::Raytraced {
             let raytraced = &mut self.raytraced;
