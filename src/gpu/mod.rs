@@ -15,6 +15,7 @@ pub mod stopwatch;
 pub mod targets;
 pub mod textures;
 pub mod vertex_light;
+mod vertex_order;
 
 pub use context::{Gpu, GpuError};
 pub use scene_buffers::SceneBuffers;

@@ -14,6 +14,7 @@ use super::material_buffers::material_bind_groups;
 use super::scene_order::{Order, index_buffer, order};
 use super::scene_view::Chunk;
 use super::vertex_light::LightBuffer;
+use super::vertex_order::VertexOrder;
 use crate::baked::{BakedScene, VertexLight};
 use crate::base::ids::MaterialId;
 use crate::scene::{AlphaMode, Scene};
@@ -25,7 +26,7 @@ const COMFORTABLE_SURFACES: std::ops::RangeInclusive<f32> = 1.0 / 1024.0..=64.0;
 
 /// A lit scene on the device.
 pub struct SceneBuffers {
-    /// [`GpuVertex`] of each vertex `[v]`.
+    /// [`GpuVertex`] of each vertex, in the order in which triangles use them.
     pub vertices: wgpu::Buffer,
     /// Three u32 a triangle, batch by batch.
     pub indices: wgpu::Buffer,
@@ -36,6 +37,7 @@ pub struct SceneBuffers {
     /// Power of two that brings the scene's radiance into the range of half floats.
     pub pre_exposure: f32,
     pub(super) chunks: Vec<Chunk>,
+    pub(super) vertex_order: VertexOrder,
     pub(super) light: LightBuffer,
     pub(super) num_groups: usize,
     pub(super) num_vertices: usize,
@@ -71,7 +73,7 @@ pub enum Faces {
 
 /// A vertex as the vertex buffer holds it.
 #[repr(C)]
-#[derive(Clone, Copy, Pod, Zeroable)]
+#[derive(Clone, Copy, Default, Pod, Zeroable)]
 pub struct GpuVertex {
     position: Vec3,
     normal: Vec3,
@@ -95,9 +97,11 @@ impl SceneBuffers {
         let scene = &baked.scene;
         let num_groups = scene.light_groups.len().max(baked.light.groups.len());
         let Order { batches, chunks, indices } = order(scene, |_| true);
+        let vertex_order = VertexOrder::new(&indices, scene.vertices.len());
         let buffers = Self {
-            vertices: vertex_buffer(gpu, scene),
-            indices: index_buffer(gpu, &indices),
+            vertices: vertex_buffer(gpu, scene, &vertex_order),
+            indices: index_buffer(gpu, &vertex_order.indices(&indices)),
+            vertex_order,
             materials: material_bind_groups(gpu, scene),
             batches,
             chunks,
@@ -123,7 +127,7 @@ impl SceneBuffers {
     }
 }
 
-fn vertex_buffer(gpu: &Gpu, scene: &Scene) -> wgpu::Buffer {
+fn vertex_buffer(gpu: &Gpu, scene: &Scene, order: &VertexOrder) -> wgpu::Buffer {
     let vertices: Vec<_> = scene
         .vertices
         .iter()
@@ -131,7 +135,7 @@ fn vertex_buffer(gpu: &Gpu, scene: &Scene) -> wgpu::Buffer {
         .collect();
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("scene vertices"),
-        contents: bytemuck::cast_slice(&vertices),
+        contents: bytemuck::cast_slice(&order.sorted(&vertices)),
         usage: wgpu::BufferUsages::VERTEX,
     })
 }

@@ -10,6 +10,6 @@ impl SceneBuffers {
     #[must_use]
     pub fn part(&self, gpu: &Gpu, scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> Self {
         let Order { batches, chunks, indices } = order(scene, is_shown);
-        self.sharing_buffers(index_buffer(gpu, &indices), batches, chunks)
+        self.sharing_buffers(index_buffer(gpu, &self.vertex_order.indices(&indices)), batches, chunks)
     }
 }

@@ -34,6 +34,7 @@ impl SceneBuffers {
             light: self.light.clone(),
             num_groups: self.num_groups,
             num_vertices: self.num_vertices,
+            vertex_order: self.vertex_order.clone(),
         }
     }
 }

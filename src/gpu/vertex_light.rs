@@ -8,7 +8,7 @@ use glam::Vec3;
 use super::{Gpu, SceneBuffers};
 use crate::baked::VertexLight;
 
-/// Irradiance on the device: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`.
+/// Irradiance on the device: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in their order there.
 #[derive(Clone)]
 pub(super) struct LightBuffer {
     irradiance: wgpu::Buffer,
@@ -36,7 +36,8 @@ impl LightBuffer {
 }
 
 impl SceneBuffers {
-    /// The irradiance: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`.
+    /// The irradiance: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in the order of
+    /// [`Self::vertices`].
     #[must_use]
     pub fn irradiance(&self) -> &wgpu::Buffer {
         &self.light.irradiance
@@ -68,7 +69,8 @@ impl SceneBuffers {
         let parts = light.groups.iter().take(self.num_groups).flat_map(|group| [&group.direct, &group.indirect]);
         for (part, values) in parts.enumerate() {
             assert_eq!(values.len(), self.num_vertices, "light of another mesh");
-            gpu.queue.write_buffer(self.irradiance(), part as u64 * part_size, bytemuck::cast_slice(values));
+            let values = self.vertex_order.sorted(values);
+            gpu.queue.write_buffer(self.irradiance(), part as u64 * part_size, bytemuck::cast_slice(&values));
             self.light.num_writes.fetch_add(1, Ordering::Release);
             written(gpu);
         }

@@ -1,0 +1,57 @@
+//! The order of vertices on the device: that in which triangles use them, so that neighbours lie side by side in memory.
+//!
+//! Triangles are drawn neighbour by neighbour (`scene_order`), but a file or a bake may have their vertices anywhere; a
+//! vertex that is not in a cache takes a software driver longer to fetch than to transform.
+
+use std::sync::Arc;
+
+/// Where vertices lie on the device.
+#[derive(Clone)]
+pub(super) struct VertexOrder {
+    /// Of each vertex `[v]` of the scene.
+    places: Arc<[u32]>,
+}
+
+impl VertexOrder {
+    /// The order in which `indices` first name each of `num_vertices` vertices; the others follow.
+    pub fn new(indices: &[u32], num_vertices: usize) -> Self {
+        const UNUSED: u32 = u32::MAX;
+        let mut places = vec![UNUSED; num_vertices];
+        let mut next = 0;
+        for vertex in indices.iter().copied().chain(0..num_vertices as u32) {
+            let place = &mut places[vertex as usize];
+            if *place == UNUSED {
+                *place = next;
+                next += 1;
+            }
+        }
+        Self { places: places.into() }
+    }
+
+    /// Indices into the vertices on the device.
+    pub fn indices(&self, indices: &[u32]) -> Vec<u32> {
+        indices.iter().map(|&vertex| self.places[vertex as usize]).collect()
+    }
+
+    /// What belongs to the vertices `[v]` of the scene, as it lies on the device.
+    pub fn sorted<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
+        let mut sorted = vec![T::default(); values.len()];
+        for (&place, &value) in self.places.iter().zip(values) {
+            sorted[place as usize] = value;
+        }
+        sorted
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vertices_lie_in_the_order_of_their_first_use() {
+        let indices = [4, 2, 5, 5, 2, 0];
+        let order = VertexOrder::new(&indices, 6);
+        assert_eq!(order.indices(&indices), [0, 1, 2, 2, 1, 3]);
+        assert_eq!(order.sorted(&[10, 11, 12, 13, 14, 15]), [14, 12, 15, 10, 11, 13]);
+    }
+}
