@@ -233,6 +233,18 @@ pub fn struct_layout(shader: &Shader, name: &str) -> Vec<usize> {
     members.iter().map(|member| member.offset).chain([*span]).map(|offset| offset as usize).collect()
 }
 
+/// A whole number of a WGSL module, to hold Rust constants against.
+#[cfg(test)]
+pub fn constant(shader: &Shader, name: &str) -> u32 {
+    let module = naga::front::wgsl::parse_str(&shader.source()).expect("every shader is valid");
+    let (_, found) =
+        module.constants.iter().find(|(_, known)| known.name.as_deref() == Some(name)).expect("it is there");
+    match module.global_expressions[found.init] {
+        naga::Expression::Literal(naga::Literal::U32(value)) => value,
+        _ => panic!("{name} is no whole number"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -4,7 +4,7 @@
 use bytemuck::Zeroable;
 
 use super::light_samples::LightSample;
-use super::light_uniforms::LightUniform;
+use super::light_uniforms::{HAS_CUBE, LightUniform};
 use super::map_pipelines::{DEPTH_ARRAY, GATHERED, OVERVIEW_ARRAY, UNIFORM, entry, uniform_buffer};
 use super::map_projection::MapUniform;
 use super::real_time::Subject;
@@ -14,16 +14,14 @@ use crate::gpu::Gpu;
 
 /// `MAX_LIGHTS` of shaders/shared/direct_few.wgsl.
 const MAX_LIGHTS: usize = 4;
-/// Bit of shaders/shared/map_lookup.wgsl.
-const HAS_CUBE: u32 = 32;
 
 /// What the light samples are like: one pipeline each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Kinds {
     num_lights: usize,
     has_maps: bool,
-    /// Bits of shaders/shared/light_sample.wgsl and shaders/shared/map_lookup.wgsl.
-    kinds: [u32; MAX_LIGHTS],
+    /// Kind of each, with [`HAS_CUBE`].
+    of_lights: [u32; MAX_LIGHTS],
     pcf_radius: u32,
     has_normal_offset: bool,
 }
@@ -32,7 +30,7 @@ impl Kinds {
     /// Constants of shaders/shared/direct_few.wgsl.
     pub fn constants(&self) -> Vec<(&'static str, f64)> {
         let switch = |is_on: bool| f64::from(u8::from(is_on));
-        let kinds = ["KIND_0", "KIND_1", "KIND_2", "KIND_3"].into_iter().zip(self.kinds.map(f64::from));
+        let kinds = ["KIND_0", "KIND_1", "KIND_2", "KIND_3"].into_iter().zip(self.of_lights.map(f64::from));
         let numbers = [
             ("NUM_LIGHTS", self.num_lights as f64),
             ("HAS_MAPS", switch(self.has_maps)),
@@ -81,7 +79,7 @@ impl FewLights {
         let mut kinds = Kinds {
             num_lights: samples.len(),
             has_maps,
-            kinds: [0; MAX_LIGHTS],
+            of_lights: [0; MAX_LIGHTS],
             pcf_radius: settings.maps.pcf_radius,
             has_normal_offset: settings.maps.normal_offset > 0.0,
         };
@@ -91,11 +89,11 @@ impl FewLights {
         let mut textures = [(); MAX_LIGHTS].map(|()| maps.no_map().clone());
         for (index, sample) in samples.iter().enumerate() {
             lights[index] = LightUniform::new(sample, subject);
-            kinds.kinds[index] = lights[index].kind();
+            kinds.of_lights[index] = lights[index].kind();
             if has_maps {
                 let map = maps.map(gpu, encoder, subject, sample, &settings.maps);
                 projections[index] = map.uniform;
-                kinds.kinds[index] |= if map.num_faces == 6 { HAS_CUBE } else { 0 };
+                kinds.of_lights[index] |= if map.num_faces == 6 { HAS_CUBE } else { 0 };
                 textures[index] = map.textures;
             }
         }

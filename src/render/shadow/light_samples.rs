@@ -6,10 +6,10 @@
 
 use std::collections::{BTreeMap, HashMap};
 
-use glam::{Mat3, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 
 use crate::base::ids::{GroupId, TriangleId};
-use crate::base::sampling::{tangent_frame, triangle_from_square};
+use crate::base::sampling::triangle_from_square;
 use crate::scene::{Light, LightKind, Scene, area_of, normal_of};
 
 /// Pieces of one surface closer than this share of the scene's extent shine as one lamp, as in the bake.
@@ -40,18 +40,6 @@ impl LightSample {
             LightKind::Point { position } | LightKind::Spot { position, .. } => position.extend(1.0),
             LightKind::Directional { direction } => (-direction).extend(0.0),
         }
-    }
-
-    /// Axes of light space, in which the light looks as a camera does: right, up, and back along its axis.
-    #[must_use]
-    pub fn axes(&self) -> Mat3 {
-        let axis = match (self.surface_normal, self.light.kind) {
-            (Some(normal), _) => normal,
-            (None, LightKind::Point { .. }) => return Mat3::IDENTITY,
-            (None, LightKind::Directional { direction } | LightKind::Spot { direction, .. }) => direction,
-        };
-        let (up, right) = tangent_frame(axis);
-        Mat3::from_cols(right, up, -axis)
     }
 
     /// Irradiance on a surface at `point` with unit normal `normal` where nothing stands between, lux per channel.

@@ -5,6 +5,7 @@ use glam::{Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
 use super::light_samples::LightSample;
+use super::light_space::axes;
 use super::real_time::Subject;
 use crate::gpu::Gpu;
 use crate::scene::LightKind;
@@ -15,6 +16,15 @@ const STRIDE: u32 = 256;
 const NARROWEST_RIM: f32 = 1e-3;
 /// Lights farther from the middle of a scene than so many times its size are far.
 const FAR: f32 = 4.0;
+
+// Bits of the kind of a light sample, as in shaders/shared/light_sample.wgsl and shaders/shared/map_lookup.wgsl.
+const IS_PARALLEL: u32 = 1;
+const IS_SURFACE: u32 = 2;
+const HAS_CONE: u32 = 4;
+const HAS_RANGE: u32 = 8;
+const IS_FAR: u32 = 16;
+/// Its map has six faces.
+pub const HAS_CUBE: u32 = 32;
 
 /// `LightSample` of shaders/shared/light_sample.wgsl.
 #[repr(C)]
@@ -44,7 +54,7 @@ impl LightUniform {
             }
             LightKind::Point { .. } | LightKind::Directional { .. } => (0.0, 1.0),
         };
-        let axes = sample.axes();
+        let axes = axes(sample);
         let place = sample.place();
         Self {
             place,
@@ -73,11 +83,11 @@ fn kind(sample: &LightSample, (low, high): (Vec3, Vec3)) -> u32 {
     let has = |bit: u32, is_on: bool| if is_on { bit } else { 0 };
     let place = sample.place();
     let is_far = place.truncate().distance(0.5 * (low + high)) > FAR * low.distance(high);
-    has(1, matches!(sample.light.kind, LightKind::Directional { .. }))
-        | has(2, sample.surface_normal.is_some())
-        | has(4, matches!(sample.light.kind, LightKind::Spot { .. }))
-        | has(8, sample.light.range.is_some())
-        | has(16, place.w > 0.0 && is_far)
+    has(IS_PARALLEL, matches!(sample.light.kind, LightKind::Directional { .. }))
+        | has(IS_SURFACE, sample.surface_normal.is_some())
+        | has(HAS_CONE, matches!(sample.light.kind, LightKind::Spot { .. }))
+        | has(HAS_RANGE, sample.light.range.is_some())
+        | has(IS_FAR, place.w > 0.0 && is_far)
 }
 
 /// Layout of bind group 1 of every pass that knows a light sample.
@@ -136,7 +146,7 @@ impl LightUniforms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::shaders::{DIRECT_LIGHT, struct_layout};
+    use crate::gpu::shaders::{DIRECT_LIGHT, DIRECT_LIGHT_MAP, constant, struct_layout};
     use std::mem::offset_of;
 
     #[test]
@@ -158,5 +168,13 @@ mod tests {
             padding
         ];
         assert_eq!(written, struct_layout(&DIRECT_LIGHT, "LightSample"));
+    }
+
+    #[test]
+    fn kinds_have_the_bits_that_the_shader_asks_for() {
+        macro_rules! same {
+            ($($name:ident),+) => { $(assert_eq!($name, constant(&DIRECT_LIGHT_MAP, stringify!($name))));+ };
+        }
+        same!(IS_PARALLEL, IS_SURFACE, HAS_CONE, HAS_RANGE, IS_FAR, HAS_CUBE);
     }
 }

@@ -88,3 +88,15 @@ impl OverviewPass {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::shaders::{MAP_OVERVIEW, constant};
+
+    #[test]
+    fn blocks_are_as_large_as_the_shader_has_them() {
+        assert_eq!(BLOCK, constant(&MAP_OVERVIEW, "BLOCK"));
+        assert_eq!([1, 8, 9, 2048].map(num_blocks), [1, 1, 2, 256]);
+    }
+}

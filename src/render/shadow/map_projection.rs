@@ -10,6 +10,7 @@ use glam::camera::rh::view::look_to_mat4;
 use glam::{Mat4, Vec2, Vec3, Vec3Swizzles};
 
 use super::light_samples::LightSample;
+use super::light_space::light_from_world;
 use super::shadow_map::MapSettings;
 use crate::scene::LightKind;
 
@@ -83,11 +84,6 @@ impl MapProjection {
         let projection_from_world = projection_from_light.iter().map(|&face| face * light_from_world).collect();
         Self { projection_from_world, uniform }
     }
-}
-
-fn light_from_world(sample: &LightSample) -> Mat4 {
-    let place = sample.place();
-    Mat4::from_mat3(sample.axes().transpose()) * Mat4::from_translation(-place.w * place.truncate())
 }
 
 fn perspective(half_width: f32, near: f32) -> Mat4 {

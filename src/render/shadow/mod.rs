@@ -24,6 +24,7 @@ mod exact_rays;
 pub mod few_lights;
 pub mod flattening;
 mod known_fault;
+mod light_space;
 mod light_targets;
 mod light_uniforms;
 mod map_cache;
