@@ -4,8 +4,8 @@
 // "Photographic Tone Reproduction", eq. 1), unless that would push the brightest twentieth far beyond white.
 
 const NUM_BINS: u32 = 256u;
-// Every other pixel of every other row is enough.
-const STEP: u32 = 2u;
+// Every other pixel of every other row is enough, every fourth in a movement.
+override STEP: u32 = 2u;
 // Luminances from 2^-20 to 2^20 are told apart; bin 0 holds what is darker, and is not counted as light.
 const DARKEST: f32 = -20.0;
 const BINS_PER_STOP: f32 = 6.4;
@@ -14,6 +14,9 @@ const MIDDLE_GREY: f32 = 0.2;
 // Share of pixels, from the dark end, that may not exceed HIGHLIGHT x white.
 const HIGHLIGHT_SHARE: f32 = 0.95;
 const HIGHLIGHT: f32 = 1.5;
+
+// A picture of luminance alone, nothing where nothing is seen; else of radiance and coverage.
+override IS_LUMINANCE: bool = false;
 
 @group(1) @binding(0) var hdr: texture_2d<f32>;
 @group(1) @binding(1) var<storage, read_write> histogram: array<atomic<u32>, NUM_BINS>;
@@ -28,7 +31,8 @@ fn count(@builtin(global_invocation_id) invocation: vec3u, @builtin(local_invoca
     if all(pixel < textureDimensions(hdr)) {
         let texel = textureLoad(hdr, pixel, 0);
         if texel.a > 0.5 {
-            atomicAdd(&tile[bin_of(luminance(texel.rgb) / (texel.a * frame.pre_exposure))], 1u);
+            let seen = select(luminance(texel.rgb) / texel.a, texel.r, IS_LUMINANCE);
+            atomicAdd(&tile[bin_of(seen / frame.pre_exposure)], 1u);
         }
     }
     workgroupBarrier();

@@ -18,7 +18,8 @@ const PI: f32 = 3.14159265358979;
 const LARGEST_HALF: f32 = 65000.0;
 // Direct light comes from the lights themselves (shaders/direct_light.wgsl) and not from the vertices.
 override LIT_BY_LIGHTS: bool = false;
-// The target shows the radiance under the exposure of the frame, by this tone map; else it holds the radiance itself.
+// The target shows the radiance under the exposure that is given or was metered last, by this tone map; else it holds the
+// radiance itself.
 override DISPLAYS: bool = false;
 override TONE_MAP: u32 = TONE_MAP_NEUTRAL;
 // The back of a single-sided surface blocks light and sends none.
@@ -27,6 +28,8 @@ override HAS_DARK_BACK: bool = false;
 override IS_UNLIT: bool = false;
 // Metals reflect their base colour diffusely.
 override METAL_AS_DIFFUSE: bool = true;
+
+@group(1) @binding(0) var<storage, read> metered_exposure: f32;
 
 struct Vertex {
     @location(0) position: vec3f,
@@ -45,8 +48,9 @@ fn surface_varying(in: Vertex) -> Varying {
     out.normal = in.normal;
     out.colour = material.base_colour * in.colour;
     out.base_and_metallic_uv = vec4f(coordinate(material.base_slot, in.uv), coordinate(material.metallic_slot, in.uv));
-    out.emissive_uv = coordinate(material.emissive_slot, in.uv);
-    let scale = light_scale();
+    out.emissive_uv_and_scale = vec3f(coordinate(material.emissive_slot, in.uv), target_scale());
+    // Light is scaled by pre-exposure, other things are as they are.
+    let scale = select(1.0, frame.pre_exposure, shows_light());
     // Surfaces that blend stay with the stored light.
     let direct = select(frame.direct, 0.0, LIT_BY_LIGHTS && ALPHA_MODE != ALPHA_BLEND);
     out.white_radiance = scale * (frame.ambient + (direct * in.direct + frame.indirect * in.indirect) / PI);
@@ -54,30 +58,40 @@ fn surface_varying(in: Vertex) -> Varying {
     return out;
 }
 
-// Light is scaled as the target holds it, other things stay as they are.
-fn light_scale() -> f32 {
-    return select(1.0, target_scale(), SHADING == SHADING_LIT || SHADING == SHADING_IRRADIANCE_ONLY);
+fn shows_light() -> bool {
+    return SHADING == SHADING_LIT || SHADING == SHADING_IRRADIANCE_ONLY;
 }
 
+// From what is shaded to what the target holds or displays.
 fn target_scale() -> f32 {
-    return select(frame.pre_exposure, frame.exposure, DISPLAYS);
+    let exposure = select(metered_exposure, frame.exposure, frame.exposure > 0.0);
+    let scale = select(frame.pre_exposure, exposure, DISPLAYS);
+    return select(scale, scale / frame.pre_exposure, shows_light());
 }
 
-// What the target is given of a fragment that receives `direct`, irradiance scaled by pre-exposure, beside the light of the
+struct Shown {
+    @location(0) colour: vec4f,
+    // What a light meter sees: luminance scaled by pre-exposure.
+    @location(1) luminance: f32,
+}
+
+// What the targets are given of a fragment that receives `direct`, irradiance scaled by pre-exposure, beside the light of the
 // vertices.
-fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> vec4f {
+fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> Shown {
     let base = base_colour(in.colour, in.base_and_metallic_uv.xy);
     let coverage = coverage(base.a);
     var shown = shade(in, base.rgb, is_front, direct);
     if HAS_DARK_BACK {
         shown = select(vec3f(0.0), shown, is_front);
     }
+    let scaled = shown * in.emissive_uv_and_scale.z;
     if DISPLAYS {
-        return displayed(tone_mapped(shown, TONE_MAP), in.position.xy);
+        let displayed = displayed(tone_mapped(scaled, TONE_MAP), in.position.xy);
+        return Shown(displayed, min(luminance(shown), LARGEST_HALF));
     }
-    let stored = min(shown, vec3f(LARGEST_HALF));
+    let stored = min(scaled, vec3f(LARGEST_HALF));
     // Blending is premultiplied; coverage of a mask acts through the samples instead.
-    return vec4f(select(stored, stored * coverage, ALPHA_MODE == ALPHA_BLEND), coverage);
+    return Shown(vec4f(select(stored, stored * coverage, ALPHA_MODE == ALPHA_BLEND), coverage), 0.0);
 }
 
 // What white paint shows of it.
@@ -88,13 +102,13 @@ fn direct_radiance(direct: vec3f) -> vec3f {
     if SHADING == SHADING_FALSE_COLOUR {
         return direct * (frame.live / frame.pre_exposure);
     }
-    return direct * select(frame.live, frame.live_displayed, DISPLAYS);
+    return direct * frame.live;
 }
 
-// Scaled as the target holds it.
+// Light is scaled by pre-exposure.
 fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
     let metallic = metallic(in.emission_and_metallic.w, in.base_and_metallic_uv.zw);
-    let emission = emission(in.emission_and_metallic.xyz, in.emissive_uv);
+    let emission = emission(in.emission_and_metallic.xyz, in.emissive_uv_and_scale.xy);
     let light = max(in.white_radiance, vec3f(0.0)) + direct_radiance(direct);
     let reflectance = select(base * (1.0 - metallic), base, METAL_AS_DIFFUSE);
     switch SHADING {
@@ -102,16 +116,16 @@ fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
             return light;
         }
         case SHADING_FALSE_COLOUR: {
-            return target_scale() * false_colour(luminance(light) * PI);
+            return false_colour(luminance(light) * PI);
         }
         case SHADING_ALBEDO: {
-            return target_scale() * reflectance;
+            return reflectance;
         }
         case SHADING_NORMALS: {
-            return target_scale() * (0.5 + 0.5 * normalize(select(-in.normal, in.normal, is_front)));
+            return 0.5 + 0.5 * normalize(select(-in.normal, in.normal, is_front));
         }
         default: {
-            return select(emission + reflectance * light, target_scale() * base, IS_UNLIT);
+            return select(emission + reflectance * light, frame.pre_exposure * base, IS_UNLIT);
         }
     }
 }

@@ -47,7 +47,7 @@ fn vertex(in: Vertex) -> Varying {
 }
 
 @fragment
-fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> Shown {
     var direct = received(0u, KIND_0, map_0, overview_0, receiver(0u, KIND_0, in, is_front, in.middle_0, in.normal_0));
     if NUM_LIGHTS > 1u {
         direct += received(1u, KIND_1, map_1, overview_1, receiver(1u, KIND_1, in, is_front, in.middle_1, in.normal_1));

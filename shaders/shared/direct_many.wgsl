@@ -7,6 +7,6 @@ fn fragment(
     in: Varying,
     @builtin(front_facing) is_front: bool,
     @builtin(sample_index) sample: u32
-) -> @location(0) vec4f {
+) -> Shown {
     return surface_colour(in, is_front, textureLoad(direct_irradiance, vec2i(in.position.xy), i32(sample)).rgb);
 }

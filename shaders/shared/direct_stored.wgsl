@@ -1,6 +1,6 @@
 // Surface pass: all light comes from the vertices.
 
 @fragment
-fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {
+fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> Shown {
     return surface_colour(in, is_front, vec3f(0.0));
 }

@@ -26,10 +26,8 @@ struct Frame {
     // Displayed = radiance x exposure; 0 asks for the metered one.
     exposure: f32,
     num_vertices: u32,
-    // From irradiance of the lights themselves, scaled by pre-exposure, to the radiance of white paint, scaled by it or by
-    // exposure.
+    // From irradiance of the lights themselves to the radiance of white paint.
     live: f32,
-    live_displayed: f32,
     // Homogeneous: the eye with w = 1, or the direction towards it with w = 0.
     eye: vec4f,
     // Ends of the scale of false colours in lux, whether it is logarithmic, and parts that lines cut it into.

@@ -6,7 +6,7 @@ struct Varying {
     // Of vertex and material.
     @location(1) colour: vec4f,
     @location(2) base_and_metallic_uv: vec4f,
-    @location(3) emissive_uv: vec2f,
+    @location(3) emissive_uv_and_scale: vec3f,
     // Radiance of an ideal white surface; centroid, so that it is never extrapolated beyond the triangle.
     @location(4) @interpolate(perspective, centroid) white_radiance: vec3f,
     // Of the material where it has no textures.

@@ -1,9 +1,13 @@
 //! The textures that one picture is drawn into.
 
+use std::cell::OnceCell;
+
 use super::Gpu;
 
 /// Radiance times pre-exposure, premultiplied by coverage; blendable and multisampled everywhere.
 pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
+/// Luminance times pre-exposure, for a light meter.
+pub const LUMINANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 /// Reversed depth: 1 at the near plane, 0 infinitely far; floats then resolve every distance alike.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
@@ -19,6 +23,8 @@ pub struct Targets {
     pub samples: Option<wgpu::TextureView>,
     /// Depth of each sample.
     pub depth: wgpu::TextureView,
+    /// Made when it is first needed.
+    luminance: OnceCell<wgpu::TextureView>,
 }
 
 impl Targets {
@@ -26,18 +32,7 @@ impl Targets {
     #[must_use]
     pub fn new(gpu: &Gpu, size: [u32; 2], samples: u32) -> Self {
         let drawn = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
-        let texture = |label, format, sample_count, usage| {
-            gpu.device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-                mip_level_count: 1,
-                sample_count,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage,
-                view_formats: &[],
-            })
-        };
+        let texture = |label, format, sample_count, usage| texture(gpu, label, size, format, sample_count, usage);
         let hdr = texture("HDR", HDR_FORMAT, 1, drawn | wgpu::TextureUsages::COPY_SRC);
         let view = |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         Self {
@@ -46,6 +41,36 @@ impl Targets {
             hdr,
             samples: (samples > 1).then(|| view(&texture("HDR samples", HDR_FORMAT, samples, drawn))),
             depth: view(&texture("depth", DEPTH_FORMAT, samples, wgpu::TextureUsages::RENDER_ATTACHMENT)),
+            luminance: OnceCell::new(),
         }
     }
+
+    /// One value a pixel, for pictures with one sample a pixel that are displayed at once.
+    pub fn luminance(&self, gpu: &Gpu) -> &wgpu::TextureView {
+        self.luminance.get_or_init(|| {
+            let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
+            let texture = texture(gpu, "luminance", self.size, LUMINANCE_FORMAT, 1, usage);
+            texture.create_view(&wgpu::TextureViewDescriptor::default())
+        })
+    }
+}
+
+fn texture(
+    gpu: &Gpu,
+    label: &str,
+    size: [u32; 2],
+    format: wgpu::TextureFormat,
+    sample_count: u32,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
 }

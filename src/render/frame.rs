@@ -4,11 +4,12 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::frame_uniform::{frame_bind_group, frame_layout};
-use super::meter::Meter;
+use super::meter::{Meter, Seen};
 use super::shadow::ShadowScene;
 use super::shadow::debug::DebugPass;
 use super::shadow::real_time::{RealTimeLight, Subject};
-use super::surface::{DirectSource, SurfacePass, SurfaceTargets};
+use super::surface::{DirectSource, SurfacePass};
+use super::surface_targets::SurfaceTargets;
 use super::tonemap::ToneMapPass;
 use super::weighted_light::WeightedLight;
 use super::{Look, View};
@@ -37,6 +38,7 @@ pub struct Renderer {
     samples: u32,
     targets: Option<Targets>,
     keeps_radiance: bool,
+    shows_last_exposure: bool,
 }
 
 impl Renderer {
@@ -49,6 +51,7 @@ impl Renderer {
             surfaces: HashMap::new(),
             live: None,
             keeps_radiance: false,
+            shows_last_exposure: false,
             shadows: None,
             debug: None,
             meter: Meter::new(gpu, &frame_layout),
@@ -78,6 +81,17 @@ impl Renderer {
     /// Pictures without a fixed exposure take that which another renderer has metered last.
     pub fn follow_exposure(&mut self, other: &Self) {
         self.followed = Some(other.meter.exposure().clone());
+    }
+
+    /// Both meter by one light meter: its exposure is that of the picture that either of them has drawn last.
+    pub fn share_meter(&mut self, other: &Self) {
+        self.meter.share(&other.meter);
+    }
+
+    /// Whether pictures without a fixed exposure are shown under that of the picture before, as they follow each other in a
+    /// movement: with one sample a pixel and nothing that blends, that is sooner done.
+    pub fn show_last_exposure(&mut self, shows: bool) {
+        self.shows_last_exposure = shows;
     }
 
     /// [`Renderer::hdr`] holds the pictures that are drawn from now on.
@@ -146,25 +160,27 @@ impl Renderer {
             live.draw(gpu, encoder, size, subject, settings)
         });
         // Light from every visible point towards the eye: displayed, or several samples a pixel and their mean.
+        let is_metered = look.fixed_exposure().is_none() && self.followed.is_none();
         let is_last = self.can_display_at_once(seen, look);
-        let onto = if is_last {
-            SurfaceTargets::display(target, self.output_format, &targets, look)
-        } else {
-            SurfaceTargets::radiance(&targets)
+        let onto = match (is_last, is_metered) {
+            (true, true) => SurfaceTargets::display_and_luminance(gpu, target, self.output_format, &targets, look),
+            (true, false) => SurfaceTargets::display(target, self.output_format, &targets, look),
+            (false, _) => SurfaceTargets::radiance(&targets),
         };
+        let exposure = self.followed.as_ref().unwrap_or(self.meter.exposure());
         let source = DirectSource::of(live.as_ref());
         let surface = self.surfaces.entry(source);
         let surface = surface.or_insert_with(|| SurfacePass::new(gpu, &self.frame_layout, self.samples, source));
-        surface.draw(gpu, encoder, &onto, &frame, seen, look, &stored, live.as_ref());
+        surface.draw(gpu, encoder, &onto, &frame, seen, look, &stored, exposure, live.as_ref());
         lap(encoder, "surfaces");
+        // The exposure that suits this picture, unless one is given.
+        if is_metered {
+            let seen = if is_last { Seen::Luminance } else { Seen::Radiance };
+            self.meter.draw(gpu, encoder, &targets, seen, &frame);
+            lap(encoder, "light meter");
+        }
         if !is_last {
-            // The exposure that suits this picture, unless one is given.
-            if look.fixed_exposure().is_none() && self.followed.is_none() {
-                self.meter.draw(gpu, encoder, &targets, &frame);
-                lap(encoder, "light meter");
-            }
             // Exposure, tone curve, sRGB, dither.
-            let exposure = self.followed.as_ref().unwrap_or(self.meter.exposure());
             self.tone_map.draw(gpu, encoder, &targets, &frame, exposure, target);
             lap(encoder, "tone map");
         }
@@ -178,11 +194,12 @@ impl Renderer {
         self.targets = Some(targets);
     }
 
-    /// Nothing needs the radiance but the screen, and what it shows of one point needs no other: the exposure is given, and
-    /// neither samples nor surfaces are blended.
+    /// Nothing needs the radiance but the screen, and what it shows of one point needs no other: the exposure is given or
+    /// that of the last picture, and neither samples nor surfaces are blended.
     fn can_display_at_once(&self, seen: &SceneBuffers, look: &Look) -> bool {
         let blends = seen.batches.iter().any(|batch| batch.alpha_mode == AlphaMode::Blend);
-        !self.keeps_radiance && self.samples == 1 && look.fixed_exposure().is_some() && !blends
+        let is_exposed = look.fixed_exposure().is_some() || self.shows_last_exposure;
+        !self.keeps_radiance && self.samples == 1 && is_exposed && !blends
     }
 
     /// The exposure in stops that was metered last; none before a picture was metered. Blocks until it is drawn.

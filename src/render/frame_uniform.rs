@@ -25,8 +25,6 @@ struct FrameUniform {
     exposure: f32,
     num_vertices: u32,
     live: f32,
-    live_displayed: f32,
-    padding: [u32; 3],
     eye: Vec4,
     lux_scale: Vec4,
 }
@@ -34,7 +32,6 @@ struct FrameUniform {
 impl FrameUniform {
     fn new(scene: &SceneBuffers, view: &View, look: &Look) -> Self {
         let weight = |group: usize| look.group_weight(GroupId::new(group)).extend(0.0);
-        let exposure = look.fixed_exposure().unwrap_or(0.0);
         // Light is added up batch by batch, and their mean is shown.
         let num_batches = 1 + look.shadows.as_ref().and_then(|shadows| shadows.batch).map_or(0, |batch| batch.number);
         let live = look.direct / (PI * num_batches as f32);
@@ -46,11 +43,9 @@ impl FrameUniform {
             background: look.background,
             indirect: look.indirect,
             pre_exposure: scene.pre_exposure,
-            exposure,
+            exposure: look.fixed_exposure().unwrap_or(0.0),
             num_vertices: scene.num_vertices() as u32,
             live,
-            live_displayed: live * exposure / scene.pre_exposure,
-            padding: [0; 3],
             eye: view.eye(),
             lux_scale: look.lux_scale.uniform(),
         }
@@ -134,7 +129,6 @@ mod tests {
             exposure,
             num_vertices,
             live,
-            live_displayed,
             eye,
             lux_scale
         ];

@@ -5,13 +5,33 @@ use crate::gpu::{Gpu, shaders};
 
 /// `NUM_BINS` of shaders/meter.wgsl.
 const NUM_BINS: u64 = 256;
-/// Pixels that a compute group steps over each way: 16 invocations, every other pixel.
-const TILE: u32 = 32;
+/// Invocations of a compute group each way.
+const GROUP: u32 = 16;
+
+/// What is metered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Seen {
+    /// Radiance and coverage.
+    Radiance,
+    /// Luminance, where the picture itself is displayed at once.
+    Luminance,
+}
+
+impl Seen {
+    /// Pixels from one that is looked at to the next, each way.
+    fn step(self) -> u32 {
+        match self {
+            Seen::Radiance => 2,
+            Seen::Luminance => 4,
+        }
+    }
+}
 
 /// Metering.
 pub struct Meter {
     layout: wgpu::BindGroupLayout,
     count: wgpu::ComputePipeline,
+    count_luminance: wgpu::ComputePipeline,
     settle: wgpu::ComputePipeline,
     histogram: wgpu::Buffer,
     exposure: wgpu::Buffer,
@@ -27,19 +47,20 @@ impl Meter {
             bind_group_layouts: &[Some(frame_layout), Some(&layout)],
             immediate_size: 0,
         });
-        let pipeline = |entry_point| {
+        let pipeline = |entry_point, constants| {
             gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
                 label: Some(&format!("meter, {entry_point}")),
                 layout: Some(&pipeline_layout),
                 module: &module,
                 entry_point: Some(entry_point),
-                compilation_options: Default::default(),
+                compilation_options: wgpu::PipelineCompilationOptions { constants, ..Default::default() },
                 cache: None,
             })
         };
         Self {
-            count: pipeline("count"),
-            settle: pipeline("settle"),
+            count: pipeline("count", &[("STEP", f64::from(Seen::Radiance.step()))]),
+            count_luminance: pipeline("count", &[("IS_LUMINANCE", 1.0), ("STEP", f64::from(Seen::Luminance.step()))]),
+            settle: pipeline("settle", &[]),
             histogram: storage(gpu, "luminance histogram", NUM_BINS * 4),
             exposure: storage(gpu, "metered exposure", 4),
             layout,
@@ -51,13 +72,29 @@ impl Meter {
         &self.exposure
     }
 
-    /// Meters the HDR picture.
-    pub fn draw(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, targets: &Targets, frame: &wgpu::BindGroup) {
+    /// What is metered from now on becomes the exposure of both.
+    pub fn share(&mut self, other: &Self) {
+        self.exposure = other.exposure.clone();
+    }
+
+    /// Meters the HDR picture, or that of its luminance.
+    pub fn draw(
+        &self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        targets: &Targets,
+        seen: Seen,
+        frame: &wgpu::BindGroup,
+    ) {
+        let (picture, count) = match seen {
+            Seen::Radiance => (&targets.hdr_view, &self.count),
+            Seen::Luminance => (targets.luminance(gpu), &self.count_luminance),
+        };
         let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("meter"),
             layout: &self.layout,
             entries: &[
-                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(&targets.hdr_view) },
+                wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(picture) },
                 wgpu::BindGroupEntry { binding: 1, resource: self.histogram.as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 2, resource: self.exposure.as_entire_binding() },
             ],
@@ -67,8 +104,9 @@ impl Meter {
             encoder.begin_compute_pass(&wgpu::ComputePassDescriptor { label: Some("meter"), timestamp_writes: None });
         pass.set_bind_group(0, frame, &[]);
         pass.set_bind_group(1, &bindings, &[]);
-        pass.set_pipeline(&self.count);
-        pass.dispatch_workgroups(targets.size[0].div_ceil(TILE), targets.size[1].div_ceil(TILE), 1);
+        pass.set_pipeline(count);
+        let [columns, rows] = targets.size.map(|side| side.div_ceil(GROUP * seen.step()));
+        pass.dispatch_workgroups(columns, rows, 1);
         pass.set_pipeline(&self.settle);
         pass.dispatch_workgroups(1, 1, 1);
     }

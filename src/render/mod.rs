@@ -19,6 +19,7 @@ pub mod view;
 mod frame_uniform;
 mod meter;
 mod surface;
+mod surface_targets;
 mod surface_variant;
 mod tonemap;
 mod weighted_light;

@@ -5,11 +5,10 @@ use std::collections::HashMap;
 use super::Look;
 use super::shadow::few_lights::{self, Kinds};
 use super::shadow::real_time::LiveLight;
-use super::surface_variant::{Output, Variant};
-use crate::base::colour::srgb_from_linear;
+use super::surface_targets::SurfaceTargets;
+use super::surface_variant::Variant;
 use crate::gpu::material_buffers::material_layout;
 use crate::gpu::scene_buffers::Batch;
-use crate::gpu::targets::Targets;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 
 /// Pipelines that are kept; those of a look are a few, and a software driver keeps a megabyte for each.
@@ -23,6 +22,8 @@ pub struct SurfacePass {
     samples: u32,
     /// Made when they are first needed.
     pipelines: HashMap<(Variant, Option<Kinds>), wgpu::RenderPipeline>,
+    /// Of bind group 1.
+    exposure_layout: wgpu::BindGroupLayout,
     /// Of bind group 3, where there is one.
     direct_layout: Option<wgpu::BindGroupLayout>,
 }
@@ -70,48 +71,20 @@ impl DirectSource {
     }
 }
 
-/// What is drawn into, all of one size.
-pub struct SurfaceTargets<'a> {
-    /// Radiance or what is displayed, as `output` says.
-    pub colour: &'a wgpu::TextureView,
-    /// Where the mean of the samples goes.
-    pub resolve: Option<&'a wgpu::TextureView>,
-    /// Depth.
-    pub depth: &'a wgpu::TextureView,
-    /// What is drawn.
-    pub output: Output,
-    /// Colour where nothing is seen.
-    pub background: wgpu::Color,
-}
-
-impl<'a> SurfaceTargets<'a> {
-    /// Radiance, with no light and no coverage where nothing is seen.
-    pub fn radiance(targets: &'a Targets) -> Self {
-        let (colour, resolve) = match &targets.samples {
-            Some(samples) => (samples, Some(&targets.hdr_view)),
-            None => (&targets.hdr_view, None),
-        };
-        let background = wgpu::Color::TRANSPARENT;
-        Self { colour, resolve, depth: &targets.depth, output: Output::Radiance, background }
-    }
-
-    /// What is displayed, with the background of `look`, into a target of `format`.
-    pub fn display(
-        target: &'a wgpu::TextureView,
-        format: wgpu::TextureFormat,
-        targets: &'a Targets,
-        look: &Look,
-    ) -> Self {
-        let encoded = |linear| if format.is_srgb() { linear } else { srgb_from_linear(linear) };
-        let [r, g, b] = look.background.to_array().map(|channel| f64::from(encoded(channel.clamp(0.0, 1.0))));
-        Self {
-            colour: target,
-            resolve: None,
-            depth: &targets.depth,
-            output: Output::Display(format, look.tone_map_in_force()),
-            background: wgpu::Color { r, g, b, a: 1.0 },
-        }
-    }
+/// One f32, as the light meter leaves it.
+fn exposure_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let exposure = wgpu::BindGroupLayoutEntry {
+        binding: 0,
+        visibility: wgpu::ShaderStages::VERTEX,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Storage { read_only: true },
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
+    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("exposure"), entries: &[exposure] };
+    gpu.device.create_bind_group_layout(&descriptor)
 }
 
 fn texture_layout(gpu: &Gpu, multisampled: bool) -> wgpu::BindGroupLayout {
@@ -135,17 +108,19 @@ impl SurfacePass {
         let direct_layout = source.layout(gpu);
         let module = source.shader().module(&gpu.device);
         let material = material_layout(gpu);
-        let mut layouts = vec![Some(frame_layout), None, Some(&material)];
+        let exposure_layout = exposure_layout(gpu);
+        let mut layouts = vec![Some(frame_layout), Some(&exposure_layout), Some(&material)];
         layouts.extend(direct_layout.as_ref().map(Some));
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("surface"),
             bind_group_layouts: &layouts,
             immediate_size: 0,
         });
-        Self { source, layout, module, samples, pipelines: HashMap::new(), direct_layout }
+        Self { source, layout, module, samples, pipelines: HashMap::new(), exposure_layout, direct_layout }
     }
 
-    /// Clears the targets and draws the scene into them, its vertices in the light of `stored`.
+    /// Clears the targets and draws the scene into them, its vertices in the light of `stored`. What is displayed at once without
+    /// a given exposure has the metered one of `exposure`.
     #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, targets) and what of it")]
     pub fn draw(
         &mut self,
@@ -156,6 +131,7 @@ impl SurfacePass {
         scene: &SceneBuffers,
         look: &Look,
         stored: &wgpu::Buffer,
+        exposure: &wgpu::Buffer,
         live: Option<&LiveLight>,
     ) {
         let kinds = match live {
@@ -172,11 +148,17 @@ impl SurfacePass {
             }
         }
         let live = live.and_then(|live| self.bind(gpu, live));
-        let mut pass = begin(encoder, targets);
+        let exposure = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("exposure"),
+            layout: &self.exposure_layout,
+            entries: &[wgpu::BindGroupEntry { binding: 0, resource: exposure.as_entire_binding() }],
+        });
+        let mut pass = targets.begin(encoder);
         if live.is_some() {
             pass.set_bind_group(3, &live, &[]);
         }
         pass.set_bind_group(0, frame, &[]);
+        pass.set_bind_group(1, &exposure, &[]);
         if !scene.batches.is_empty() {
             pass.set_vertex_buffer(0, scene.vertices.slice(..));
             pass.set_vertex_buffer(1, stored.slice(..));
@@ -211,23 +193,4 @@ impl SurfacePass {
         constants.push(("LIT_BY_LIGHTS", f64::from(u8::from(self.source != DirectSource::Stored))));
         variant.pipeline(gpu, &self.layout, &self.module, self.samples, constants)
     }
-}
-
-/// Begins the pass with nothing drawn, infinitely far.
-fn begin<'e>(encoder: &'e mut wgpu::CommandEncoder, targets: &SurfaceTargets<'_>) -> wgpu::RenderPass<'e> {
-    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-        label: Some("surface"),
-        color_attachments: &[Some(wgpu::RenderPassColorAttachment {
-            view: targets.colour,
-            depth_slice: None,
-            resolve_target: targets.resolve,
-            ops: wgpu::Operations { load: wgpu::LoadOp::Clear(targets.background), store: wgpu::StoreOp::Store },
-        })],
-        depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
-            view: targets.depth,
-            depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
-            stencil_ops: None,
-        }),
-        ..Default::default()
-    })
 }

@@ -4,7 +4,7 @@ use super::weighted_light::WeightedLight;
 use super::{Look, Shading, ToneMap};
 use crate::gpu::Gpu;
 use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex};
-use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT};
+use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, LUMINANCE_FORMAT};
 use crate::scene::AlphaMode;
 
 /// Colour is premultiplied and coverage adds up under it.
@@ -67,6 +67,8 @@ pub enum Output {
     Radiance,
     /// What the screen shows of it, into a format of the screen.
     Display(wgpu::TextureFormat, ToneMap),
+    /// The same, and luminance times pre-exposure into [`LUMINANCE_FORMAT`].
+    DisplayAndLuminance(wgpu::TextureFormat, ToneMap),
 }
 
 /// How alpha acts.
@@ -127,7 +129,7 @@ impl Variant {
         ]);
         let format = match self.output {
             Output::Radiance => HDR_FORMAT,
-            Output::Display(format, tone_map) => {
+            Output::Display(format, tone_map) | Output::DisplayAndLuminance(format, tone_map) => {
                 let encodes = switch(format.is_srgb());
                 let tone_map = f64::from(tone_map.number());
                 constants.extend([("DISPLAYS", 1.0), ("TARGET_ENCODES", encodes), ("TONE_MAP", tone_map)]);
@@ -136,7 +138,11 @@ impl Variant {
         };
         let options = wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() };
         let cull_mode = self.culls.then_some(wgpu::Face::Back);
-        let target = wgpu::ColorTargetState { format, blend: alpha.blend, write_mask: wgpu::ColorWrites::ALL };
+        let target = |format, blend| Some(wgpu::ColorTargetState { format, blend, write_mask: wgpu::ColorWrites::ALL });
+        let mut targets = vec![target(format, alpha.blend)];
+        if matches!(self.output, Output::DisplayAndLuminance(..)) {
+            targets.push(target(LUMINANCE_FORMAT, None));
+        }
         gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
             label: Some(&format!("surface, {}, {}", alpha.label, if self.culls { "culled" } else { "two-faced" })),
             layout: Some(layout),
@@ -163,7 +169,7 @@ impl Variant {
                 module,
                 entry_point: Some("fragment"),
                 compilation_options: options,
-                targets: &[Some(target)],
+                targets: &targets,
             }),
             multiview_mask: None,
             cache: None,

@@ -1,7 +1,7 @@
 //! The picture of the scene behind the panels, drawn anew only where something in it has changed.
 //!
 //! A graphics card draws every picture finely. Where the processor draws (lavapipe), a picture that follows a movement
-//! is a sketch of half the size, and is drawn out when the movement rests: frames come five times as soon.
+//! is a sketch with one sample a pixel, of half the size where that takes too long, and is drawn out when the movement rests.
 
 use std::sync::Arc;
 
@@ -16,7 +16,7 @@ use crate::render::{Look, Overlay, OverlayPass, ShadowScene, ShadowSettings, Vie
 /// How finely a picture is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Detail {
-    /// Half the size, for movement.
+    /// For movement: one sample a pixel, of half the size if need be.
     Sketch,
     /// One sample a pixel, for a rest while the bake needs the processor.
     Plain,
@@ -162,7 +162,13 @@ impl Canvas {
     /// The exposure that was metered for the last picture, stops; none where none was metered.
     #[must_use]
     pub fn metered_ev(&self, gpu: &Gpu) -> Option<f32> {
-        self.painter.metered_ev(gpu, self.detail()?)
+        self.picture.as_ref().and_then(|_| self.painter.metered_ev(gpu))
+    }
+
+    /// The picture that was drawn last took the processor so long, with the panels, seconds.
+    pub fn note_time(&mut self, seconds: f32) {
+        self.painter.note_time(seconds);
+        self.rival.iter_mut().for_each(|rival| rival.note_time(seconds));
     }
 
     /// Adds part of a batch of light samples; the picture stays as it is until the batch is whole.

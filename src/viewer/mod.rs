@@ -18,6 +18,7 @@ pub mod kept_side;
 pub mod marks;
 pub mod memory;
 pub mod meter;
+mod motion;
 pub mod output;
 pub mod pacing;
 pub mod panels;
@@ -46,6 +47,7 @@ mod gui;
 mod marks_cache;
 mod painter;
 mod picture;
+mod quick;
 mod shadow_notes;
 mod warm_up;
 

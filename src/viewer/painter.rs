@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
-
 use super::canvas::{Detail, Sight};
+use super::quick::Quick;
 use crate::gpu::{Gpu, Stopwatch};
 use crate::render::{Look, Renderer, ShadowScene};
 
@@ -13,30 +12,19 @@ pub const SAMPLES: u32 = 4;
 
 /// Draws looks into textures of one format.
 pub struct Painter {
-    format: wgpu::TextureFormat,
     fine: Renderer,
     /// Where the processor draws.
     quick: Option<Quick>,
-}
-
-struct Quick {
-    renderer: Renderer,
-    /// Enlarges sketches.
-    blitter: TextureBlitter,
-    /// The last sketch's target and its size.
-    target: Option<(wgpu::TextureView, [u32; 2])>,
+    /// The last picture was one of a movement.
+    is_moving: bool,
 }
 
 impl Painter {
     /// A painter for textures of `format`.
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
-        let quick = || Quick {
-            renderer: Renderer::new(gpu, format, 1),
-            blitter: TextureBlitterBuilder::new(&gpu.device, format).sample_type(wgpu::FilterMode::Linear).build(),
-            target: None,
-        };
-        Self { format, fine: Renderer::new(gpu, format, SAMPLES), quick: gpu.is_software().then(quick) }
+        let fine = Renderer::new(gpu, format, SAMPLES);
+        Self { quick: gpu.is_software().then(|| Quick::new(gpu, format, &fine)), fine, is_moving: false }
     }
 
     /// The processor draws, and details cost time.
@@ -45,22 +33,23 @@ impl Painter {
         self.quick.is_some()
     }
 
-    /// The exposure that was metered for the last picture, which had this detail; none where none was metered.
+    /// The exposure that was metered for the last picture; none where none was metered.
     #[must_use]
-    pub fn metered_ev(&self, gpu: &Gpu, detail: Detail) -> Option<f32> {
-        let renderer = match (&self.quick, detail) {
-            (Some(quick), Detail::Sketch | Detail::Plain) => &quick.renderer,
-            _ => &self.fine,
-        };
+    pub fn metered_ev(&self, gpu: &Gpu) -> Option<f32> {
         // A lost device is told by the next frame.
-        renderer.metered_ev(gpu).ok().flatten()
+        self.fine.metered_ev(gpu).ok().flatten()
+    }
+
+    /// The last picture took so long, seconds.
+    pub fn note_time(&mut self, seconds: f32) {
+        self.quick.iter_mut().filter(|_| self.is_moving).for_each(|quick| quick.note_time(seconds));
     }
 
     /// Pictures are exposed as those that another painter has drawn with the same detail.
     pub fn follow_exposure(&mut self, other: &Self) {
         self.fine.follow_exposure(&other.fine);
         if let (Some(quick), Some(other)) = (&mut self.quick, &other.quick) {
-            quick.renderer.follow_exposure(&other.renderer);
+            quick.follow_exposure(other);
         }
     }
 
@@ -82,9 +71,14 @@ impl Painter {
         let shadows: &Arc<ShadowScene> = &sight.shadows;
         self.renderers().for_each(|renderer| renderer.cast_shadows(Some(Arc::clone(shadows))));
         let (scene, view, size) = (&sight.scene, &sight.view, sight.size);
+        let was_moving = std::mem::replace(&mut self.is_moving, detail == Detail::Sketch);
+        if let Some(quick) = &mut self.quick {
+            // A picture that stands alone has its own exposure; those of a movement follow each other.
+            quick.show_last_exposure(was_moving && self.is_moving);
+        }
         match (&mut self.quick, detail) {
-            (Some(quick), Detail::Sketch) => quick.sketch(gpu, encoder, target, self.format, sight, look),
-            (Some(quick), Detail::Plain) => quick.renderer.draw(gpu, encoder, target, size, scene, view, look),
+            (Some(quick), Detail::Sketch) => quick.sketch(gpu, encoder, target, sight, look),
+            (Some(quick), Detail::Plain) => quick.draw(gpu, encoder, target, sight, look),
             _ => self.fine.draw(gpu, encoder, target, size, scene, view, look),
         }
     }
@@ -96,28 +90,7 @@ impl Painter {
     }
 
     fn renderers(&mut self) -> impl Iterator<Item = &mut Renderer> {
-        [Some(&mut self.fine), self.quick.as_mut().map(|quick| &mut quick.renderer)].into_iter().flatten()
-    }
-}
-
-impl Quick {
-    /// Draws half as wide and high, and enlarges into `target`.
-    fn sketch(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        target: &wgpu::TextureView,
-        format: wgpu::TextureFormat,
-        sight: &Sight,
-        look: &Look,
-    ) {
-        let size = sight.size.map(|side| side.div_ceil(2));
-        let (small, _) = match self.target.take() {
-            Some(last) if last.1 == size => self.target.insert(last),
-            _ => self.target.insert((view_of(&texture(gpu, size, format)), size)),
-        };
-        self.renderer.draw(gpu, encoder, small, size, &sight.scene, &sight.view, look);
-        self.blitter.copy(&gpu.device, encoder, small, target);
+        std::iter::once(&mut self.fine).chain(self.quick.iter_mut().flat_map(Quick::renderers))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The window's surface: the picture of the scene, and the panels on top of it.
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use anyhow::Context;
 use winit::dpi::PhysicalSize;
@@ -133,6 +133,7 @@ impl Screen {
         };
         // Pictures that go on from others take less than their own time.
         let is_whole = picture.as_ref().is_some_and(|picture| picture.batch.is_none_or(Batch::is_first));
+        let begun = Instant::now();
         self.submit(&frame.texture, picture, panels);
         if is_whole {
             self.canvas.read_watch(&self.gpu);
@@ -140,6 +141,9 @@ impl Screen {
         if self.gpu.is_software() {
             // The cores draw now: the bake shall not take them away before the frame is whole.
             let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
+            if is_whole {
+                self.canvas.note_time(begun.elapsed().as_secs_f32());
+            }
         }
         window.pre_present_notify();
         self.gpu.queue.present(frame);

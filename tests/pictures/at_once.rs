@@ -67,3 +67,27 @@ fn glass_is_mixed_before_it_is_tone_mapped() {
     let look = Look { exposure: Exposure::Ev(3.0), ambient: Vec3::splat(0.2), ..Look::default() };
     assert_eq!(compare(gpu, &scene, &look)[0], 0);
 }
+
+#[test]
+fn pictures_of_a_movement_settle_on_the_exposure_that_suits_them() {
+    let Some(gpu) = gpu() else { return };
+    let scene = builtin::gallery();
+    let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
+    let buffers = SceneBuffers::new(gpu, &BakedScene { scene: scene.clone(), light });
+    let [dim, bright] = [0.02, 40.0].map(|ambient| Look { ambient: Vec3::splat(ambient), ..Look::default() });
+    let view = View::from_camera(&scene.cameras[0], SIZE[0] as f32 / SIZE[1] as f32);
+    let mut renderer = Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
+    let exact = displayed(gpu, &mut renderer, SIZE, &buffers, &view, &bright);
+    let ev = renderer.metered_ev(gpu).expect("a device").expect("metered");
+    // From the light of another picture to that of this one.
+    let _ = displayed(gpu, &mut renderer, SIZE, &buffers, &view, &dim);
+    renderer.show_last_exposure(true);
+    let first = displayed(gpu, &mut renderer, SIZE, &buffers, &view, &bright);
+    let second = displayed(gpu, &mut renderer, SIZE, &buffers, &view, &bright);
+    let mean = |picture: &[u8]| picture.iter().map(|&value| f64::from(value)).sum::<f64>() / picture.len() as f64;
+    assert!(mean(&first) > mean(&exact) + 20.0, "{} after {}", mean(&first), mean(&exact));
+    assert!((mean(&second) - mean(&exact)).abs() < 2.0, "{} for {}", mean(&second), mean(&exact));
+    // Every fourth pixel tells nearly what every other does.
+    let new_ev = renderer.metered_ev(gpu).expect("a device").expect("metered");
+    assert!((new_ev - ev).abs() < 0.05, "{new_ev} for {ev}");
+}

@@ -1,0 +1,86 @@
+//! What the surface pass draws into: radiance for all that comes after, or at once what the screen shows.
+
+use super::Look;
+use super::surface_variant::Output;
+use crate::base::colour::srgb_from_linear;
+use crate::gpu::Gpu;
+use crate::gpu::targets::Targets;
+
+/// What is drawn into, all of one size.
+pub struct SurfaceTargets<'a> {
+    /// Radiance or what is displayed, as `output` says.
+    colour: &'a wgpu::TextureView,
+    /// Where the mean of the samples goes.
+    resolve: Option<&'a wgpu::TextureView>,
+    /// Depth.
+    depth: &'a wgpu::TextureView,
+    /// Luminance for the light meter, where `output` says so.
+    luminance: Option<&'a wgpu::TextureView>,
+    /// What is drawn.
+    pub output: Output,
+    /// Colour where nothing is seen.
+    background: wgpu::Color,
+}
+
+impl<'a> SurfaceTargets<'a> {
+    /// Radiance, with no light and no coverage where nothing is seen.
+    pub fn radiance(targets: &'a Targets) -> Self {
+        let (colour, resolve) = match &targets.samples {
+            Some(samples) => (samples, Some(&targets.hdr_view)),
+            None => (&targets.hdr_view, None),
+        };
+        let background = wgpu::Color::TRANSPARENT;
+        Self { colour, resolve, depth: &targets.depth, luminance: None, output: Output::Radiance, background }
+    }
+
+    /// What is displayed, with the background of `look`, into a target of `format`.
+    pub fn display(
+        target: &'a wgpu::TextureView,
+        format: wgpu::TextureFormat,
+        targets: &'a Targets,
+        look: &Look,
+    ) -> Self {
+        let encoded = |linear| if format.is_srgb() { linear } else { srgb_from_linear(linear) };
+        let [r, g, b] = look.background.to_array().map(|channel| f64::from(encoded(channel.clamp(0.0, 1.0))));
+        Self {
+            colour: target,
+            resolve: None,
+            depth: &targets.depth,
+            luminance: None,
+            output: Output::Display(format, look.tone_map_in_force()),
+            background: wgpu::Color { r, g, b, a: 1.0 },
+        }
+    }
+
+    /// The same, and luminance as the next picture's exposure needs it.
+    pub fn display_and_luminance(
+        gpu: &Gpu,
+        target: &'a wgpu::TextureView,
+        format: wgpu::TextureFormat,
+        targets: &'a Targets,
+        look: &Look,
+    ) -> Self {
+        let output = Output::DisplayAndLuminance(format, look.tone_map_in_force());
+        Self { luminance: Some(targets.luminance(gpu)), output, ..Self::display(target, format, targets, look) }
+    }
+
+    /// Begins a pass with nothing drawn, infinitely far.
+    pub fn begin<'e>(&self, encoder: &'e mut wgpu::CommandEncoder) -> wgpu::RenderPass<'e> {
+        let cleared = |view, resolve_target, colour| {
+            let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(colour), store: wgpu::StoreOp::Store };
+            Some(wgpu::RenderPassColorAttachment { view, depth_slice: None, resolve_target, ops })
+        };
+        let mut colours = vec![cleared(self.colour, self.resolve, self.background)];
+        colours.extend(self.luminance.map(|view| cleared(view, None, wgpu::Color::TRANSPARENT)));
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("surface"),
+            color_attachments: &colours,
+            depth_stencil_attachment: Some(wgpu::RenderPassDepthStencilAttachment {
+                view: self.depth,
+                depth_ops: Some(wgpu::Operations { load: wgpu::LoadOp::Clear(0.0), store: wgpu::StoreOp::Discard }),
+                stencil_ops: None,
+            }),
+            ..Default::default()
+        })
+    }
+}
