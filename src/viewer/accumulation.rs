@@ -1,8 +1,8 @@
 //! Soft shadows become exact while the camera rests: light samples are added up, a few each frame, so that the window
 //! answers in between.
 
-use super::canvas::{Comparison, Detail, Sight};
 use super::screen::NewPicture;
+use super::sight::{Comparison, Detail, Sight};
 use super::walkthrough::Walkthrough;
 use crate::render::ShadowSettings;
 use crate::render::shadow::{Batch, MOST_POINTS, num_batches};

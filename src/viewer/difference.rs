@@ -1,6 +1,7 @@
 //! The heat map of where two shadow techniques decide differently.
 
-use super::canvas::{self, Detail, Sight};
+use super::canvas;
+use super::sight::{Detail, Sight};
 use crate::base::colour::srgb_from_linear;
 use crate::gpu::Gpu;
 use crate::render::shadow::{Case, Judge, shadow_difference};

@@ -29,6 +29,7 @@ pub mod screen;
 pub mod session;
 pub mod settings;
 pub mod shortcuts;
+pub mod sight;
 pub mod solved;
 pub mod still;
 pub mod travel;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use super::canvas::{Detail, Sight};
 use super::quick::Quick;
+use super::sight::{Detail, Sight};
 use crate::gpu::{Gpu, Stopwatch};
 use crate::render::{Look, Renderer, ShadowScene};
 

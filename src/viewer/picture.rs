@@ -3,12 +3,13 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::canvas::{Change, Detail, Sight};
+use super::canvas::Change;
 use super::errand::Kind;
 use super::marks_cache::Wanted;
 use super::panels::Tab;
 use super::screen::NewPicture;
 use super::shadow_notes;
+use super::sight::{Detail, Sight};
 use super::still::{self, Subject};
 use super::walkthrough::Walkthrough;
 use crate::render::View;

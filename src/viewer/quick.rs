@@ -2,9 +2,9 @@
 
 use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
 
-use super::canvas::Sight;
 use super::motion::Motion;
 use super::painter::{texture, view_of};
+use super::sight::Sight;
 use crate::gpu::Gpu;
 use crate::render::{Look, Renderer};
 

@@ -7,8 +7,9 @@ use anyhow::Context;
 use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
-use super::canvas::{Canvas, Detail, Sight};
+use super::canvas::Canvas;
 use super::kept_side::KeptSide;
+use super::sight::{Detail, Sight};
 use super::warm_up::warm_up;
 use crate::gpu::Gpu;
 use crate::render::shadow::Batch;

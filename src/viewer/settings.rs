@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::canvas::{Comparison, Rival};
+use super::sight::{Comparison, Rival};
 use crate::render::shadow::{DebugView, ShadowDebug};
 use crate::render::{Exposure, Look, LuxScale, Shading, ShadowSettings, ShadowTechnique, ToneMap};
 use crate::scene::Scene;

@@ -3,7 +3,8 @@
 
 use std::sync::Arc;
 
-use super::canvas::{Canvas, Detail, Sight};
+use super::canvas::Canvas;
+use super::sight::{Detail, Sight};
 use crate::baked::BakedScene;
 use crate::gpu::{Gpu, SceneBuffers};
 use crate::render::{Look, ShadowScene, View};

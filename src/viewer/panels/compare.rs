@@ -2,8 +2,8 @@
 
 use egui::{Align2, Area, Color32, CursorIcon, FontId, Id, Order, Painter, Pos2, Rect, Role, Sense, Ui, pos2, vec2};
 
-use super::super::canvas::Comparison;
 use super::super::settings::LightSettings;
+use super::super::sight::Comparison;
 use super::shadows::name_of;
 use super::widgets::named;
 use super::{Facts, theme};

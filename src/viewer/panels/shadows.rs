@@ -2,8 +2,8 @@
 
 use egui::{ComboBox, DragValue, RichText, Role, Slider, Ui};
 
-use super::super::canvas::Comparison;
 use super::super::settings::LightSettings;
+use super::super::sight::Comparison;
 use super::widgets::{named, row};
 use super::{Command, Facts, Tool, theme};
 use crate::render::shadow::{DebugView, MapSettings, PlanarSettings, VolumeSettings};

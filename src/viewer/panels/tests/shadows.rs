@@ -7,7 +7,7 @@ use super::super::*;
 use super::{Desk, baked, click, desk};
 use crate::render::ShadowTechnique;
 use crate::render::shadow::DebugView;
-use crate::viewer::canvas::Comparison;
+use crate::viewer::sight::Comparison;
 
 fn live(facts: Facts<'static>) -> Harness<'static, Desk> {
     let mut desk = desk(facts);
