@@ -36,7 +36,8 @@ pub struct Renderer {
     tone_map: ToneMapPass,
     output_format: wgpu::TextureFormat,
     samples: u32,
-    targets: Option<Targets>,
+    /// Those of the last pictures, the last first.
+    targets: Vec<Targets>,
     keeps_radiance: bool,
     shows_last_exposure: bool,
 }
@@ -61,7 +62,7 @@ impl Renderer {
             frame_layout,
             output_format,
             samples,
-            targets: None,
+            targets: Vec::new(),
         }
     }
 
@@ -134,10 +135,8 @@ impl Renderer {
         view: &View,
         look: &Look,
     ) {
-        let targets = match self.targets.take() {
-            Some(targets) if targets.size == size => targets,
-            _ => Targets::new(gpu, size, self.samples),
-        };
+        let kept = self.targets.iter().position(|targets| targets.size == size);
+        let targets = kept.map(|at| self.targets.remove(at)).unwrap_or_else(|| Targets::new(gpu, size, self.samples));
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
 
         // The light of the vertices, each group as bright as wanted.
@@ -191,7 +190,10 @@ impl Renderer {
             pass.draw(gpu, encoder, target, size, subject, debug);
         }
 
-        self.targets = Some(targets);
+        self.shadows.iter().for_each(|shadows| shadows.forget_unused());
+        // Where a pixel has one sample, pictures of a movement may change their size back and forth.
+        self.targets.insert(0, targets);
+        self.targets.truncate(if self.samples == 1 { 2 } else { 1 });
     }
 
     /// Nothing needs the radiance but the screen, and what it shows of one point needs no other: the exposure is given or
@@ -214,6 +216,6 @@ impl Renderer {
 
     /// The linear picture that was drawn last where it is kept, before exposure, scaled by [`SceneBuffers::pre_exposure`].
     pub(super) fn hdr(&self) -> Option<&wgpu::Texture> {
-        self.targets.as_ref().map(|targets| &targets.hdr)
+        self.targets.first().map(|targets| &targets.hdr)
     }
 }

@@ -12,7 +12,7 @@ use crate::gpu::scene_buffers::Batch;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 
 /// Pipelines that are kept; those of a look are a few, and a software driver keeps a megabyte for each.
-const MOST_PIPELINES: usize = 32;
+const MOST_PIPELINES: usize = 16;
 
 /// Surface pass.
 pub struct SurfacePass {

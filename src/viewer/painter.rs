@@ -74,7 +74,7 @@ impl Painter {
         let was_moving = std::mem::replace(&mut self.is_moving, detail == Detail::Sketch);
         if let Some(quick) = &mut self.quick {
             // A picture that stands alone has its own exposure; those of a movement follow each other.
-            quick.show_last_exposure(was_moving && self.is_moving);
+            quick.renderer().show_last_exposure(was_moving && self.is_moving);
         }
         match (&mut self.quick, detail) {
             (Some(quick), Detail::Sketch) => quick.sketch(gpu, encoder, target, sight, look),
@@ -90,7 +90,7 @@ impl Painter {
     }
 
     fn renderers(&mut self) -> impl Iterator<Item = &mut Renderer> {
-        std::iter::once(&mut self.fine).chain(self.quick.iter_mut().flat_map(Quick::renderers))
+        std::iter::once(&mut self.fine).chain(self.quick.iter_mut().map(Quick::renderer))
     }
 }
 

@@ -11,9 +11,7 @@ use crate::render::{Look, Renderer};
 /// Draws quick pictures into textures of one format.
 pub struct Quick {
     format: wgpu::TextureFormat,
-    full: Renderer,
-    /// Of half the size, with targets of its own.
-    half: Renderer,
+    renderer: Renderer,
     /// Enlarges sketches.
     blitter: TextureBlitter,
     /// The last small sketch's target and its size.
@@ -25,28 +23,20 @@ impl Quick {
     /// For textures of `format`; the exposure is that of the last picture of these and of `fine`.
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat, fine: &Renderer) -> Self {
-        let renderer = || {
-            let mut renderer = Renderer::new(gpu, format, 1);
-            renderer.share_meter(fine);
-            renderer
-        };
+        let mut renderer = Renderer::new(gpu, format, 1);
+        renderer.share_meter(fine);
         let blitter = TextureBlitterBuilder::new(&gpu.device, format).sample_type(wgpu::FilterMode::Linear).build();
-        Self { format, full: renderer(), half: renderer(), blitter, target: None, motion: Motion::default() }
+        Self { format, renderer, blitter, target: None, motion: Motion::default() }
     }
 
-    /// All renderers.
-    pub fn renderers(&mut self) -> impl Iterator<Item = &mut Renderer> {
-        [&mut self.full, &mut self.half].into_iter()
+    /// What draws.
+    pub fn renderer(&mut self) -> &mut Renderer {
+        &mut self.renderer
     }
 
     /// Pictures are exposed as those that another has drawn.
     pub fn follow_exposure(&mut self, other: &Self) {
-        self.renderers().for_each(|renderer| renderer.follow_exposure(&other.full));
-    }
-
-    /// As [`Renderer::show_last_exposure`].
-    pub fn show_last_exposure(&mut self, shows: bool) {
-        self.renderers().for_each(|renderer| renderer.show_last_exposure(shows));
+        self.renderer.follow_exposure(&other.renderer);
     }
 
     /// The last picture of a movement took so long, seconds.
@@ -63,7 +53,7 @@ impl Quick {
         sight: &Sight,
         look: &Look,
     ) {
-        self.full.draw(gpu, encoder, target, sight.size, &sight.scene, &sight.view, look);
+        self.renderer.draw(gpu, encoder, target, sight.size, &sight.scene, &sight.view, look);
     }
 
     /// Draws as large as there is time for; what is half as wide and high is enlarged into `target`.
@@ -83,7 +73,7 @@ impl Quick {
             Some(last) if last.1 == size => self.target.insert(last),
             _ => self.target.insert((view_of(&texture(gpu, size, self.format)), size)),
         };
-        self.half.draw(gpu, encoder, small, size, &sight.scene, &sight.view, look);
+        self.renderer.draw(gpu, encoder, small, size, &sight.scene, &sight.view, look);
         self.blitter.copy(&gpu.device, encoder, small, target);
     }
 }

@@ -1,6 +1,8 @@
 //! Shadow maps that are kept from picture to picture: while neither the light nor the casters move, a map stays true.
 //! All renderers of a scene share them.
 
+use std::time::{Duration, Instant};
+
 use glam::Mat4;
 
 use super::map_overview::num_blocks;
@@ -10,9 +12,13 @@ use crate::gpu::{Gpu, SceneBuffers};
 /// Texels that are kept at most: 256 MiB, sixteen faces of the usual size, and a sixteenth of it for their overviews.
 const MAX_TEXELS: usize = 1 << 26;
 
+/// Maps that nobody has asked for this long are let go.
+const LONGEST_UNUSED: Duration = Duration::from_secs(5);
+
 /// A map on the device.
 pub struct Map {
     shown: Shown,
+    asked_for: Instant,
     /// One view a face, to draw to.
     pub faces: Vec<wgpu::TextureView>,
     /// The same of the overview.
@@ -80,8 +86,15 @@ impl MapCache {
                 Map::new(gpu, shown)
             }
         };
-        self.maps.push(map);
+        self.maps.push(Map { asked_for: Instant::now(), ..map });
         (&self.maps[self.maps.len() - 1], found.is_none())
+    }
+}
+
+impl MapCache {
+    /// Lets go of maps that were not asked for of late: shadows are found otherwise by now.
+    pub fn forget_unused(&mut self) {
+        self.maps.retain(|map| map.asked_for.elapsed() < LONGEST_UNUSED);
     }
 }
 
@@ -91,7 +104,13 @@ impl Map {
         let depth = texture(gpu, DEPTH_FORMAT, shown.resolution, num_faces);
         let overview = texture(gpu, OVERVIEW_FORMAT, num_blocks(shown.resolution), num_faces);
         let textures = MapTextures { depth: all_faces(&depth), overview: all_faces(&overview) };
-        Self { shown, faces: each_face(&depth), overview_faces: each_face(&overview), textures }
+        Self {
+            shown,
+            asked_for: Instant::now(),
+            faces: each_face(&depth),
+            overview_faces: each_face(&overview),
+            textures,
+        }
     }
 }
 

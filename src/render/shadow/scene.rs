@@ -90,6 +90,11 @@ impl ShadowScene {
         samples
     }
 
+    /// A picture has been drawn: lets go of what pictures no longer need.
+    pub fn forget_unused(&self) {
+        self.maps().forget_unused();
+    }
+
     /// Shadow maps of its lights.
     pub(super) fn maps(&self) -> MutexGuard<'_, MapCache> {
         self.maps.lock().unwrap_or_else(PoisonError::into_inner)
