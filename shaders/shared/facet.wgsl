@@ -1,7 +1,7 @@
 // How a visible point is turned, in world or light space.
 
-// Along the normal of the triangle itself on the side that is seen; `middle` is the point under the middle of the pixel. To
-// the right across downwards points to the eye.
+// Along the normal of the triangle itself on the side that is seen; `middle` is the point under the middle of the pixel. The
+// cross product of the ways down and to the right points to the eye.
 fn facet_of(middle: vec3f) -> vec3f {
     return cross(dpdy(middle), dpdx(middle));
 }

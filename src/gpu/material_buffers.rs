@@ -9,7 +9,7 @@ use super::mip::Encoding;
 use super::textures::Textures;
 use crate::scene::{AlphaMode, Material, Scene, TextureSlot};
 
-/// `Material` of shaders/surface.wgsl.
+/// `Material` of shaders/shared/material.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct MaterialUniform {
@@ -24,7 +24,7 @@ struct MaterialUniform {
     padding: [u32; 2],
 }
 
-/// `Slot` of shaders/surface.wgsl.
+/// `Slot` of shaders/shared/material.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct SlotUniform {
