@@ -29,14 +29,20 @@ override IS_UNLIT: bool = false;
 // Metals reflect their base colour diffusely.
 override METAL_AS_DIFFUSE: bool = true;
 
+// The light of the vertices lies in tiles (shaders/fill_tiles.wgsl). In place of irradiance they hold where: their own
+// coordinates in the tile, between 0 and 1, its first texel and its width, both in shares of the texture.
+override IS_TILED: bool = false;
+
 @group(1) @binding(0) var<storage, read> metered_exposure: f32;
+@group(1) @binding(1) var tiles: texture_2d<f32>;
+@group(1) @binding(2) var between_texels: sampler;
 
 struct Vertex {
     @location(0) position: vec3f,
     @location(1) normal: vec3f,
     @location(2) uv: vec4f,
     @location(3) colour: vec4f,
-    // Irradiance, summed over the light groups.
+    // Irradiance, summed over the light groups, or a place in a tile.
     @location(4) direct: vec3f,
     @location(5) indirect: vec3f,
 }
@@ -48,7 +54,8 @@ fn surface_varying(in: Vertex) -> Varying {
     out.normal = in.normal;
     out.colour = material.base_colour * in.colour;
     out.base_and_metallic_uv = vec4f(coordinate(material.base_slot, in.uv), coordinate(material.metallic_slot, in.uv));
-    out.emissive_uv_and_scale = vec3f(coordinate(material.emissive_slot, in.uv), target_scale());
+    let tile_width = select(0.0, in.indirect.y, IS_TILED);
+    out.emissive_uv_and_scales = vec4f(coordinate(material.emissive_slot, in.uv), target_scale(), tile_width);
     // Light is scaled by pre-exposure, other things are as they are.
     let scale = select(1.0, frame.pre_exposure, shows_light());
     // Surfaces that blend stay with the stored light.
@@ -56,6 +63,11 @@ fn surface_varying(in: Vertex) -> Varying {
     out.white_radiance = scale * (frame.ambient + (direct * in.direct + frame.indirect * in.indirect) / PI);
     out.emission_and_metallic = vec4f(scale * emission_factor(), material.metallic);
     return out;
+}
+
+// Coordinates in a tile and its first texel. Not at the centroid: of that lavapipe scales even what is constant.
+fn tile_place(in: Vertex) -> vec4f {
+    return vec4f(in.direct, in.indirect.x);
 }
 
 fn shows_light() -> bool {
@@ -84,7 +96,7 @@ fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> Shown {
     if HAS_DARK_BACK {
         shown = select(vec3f(0.0), shown, is_front);
     }
-    let scaled = shown * in.emissive_uv_and_scale.z;
+    let scaled = shown * in.emissive_uv_and_scales.z;
     if DISPLAYS {
         let displayed = displayed(tone_mapped(scaled, TONE_MAP), in.position.xy);
         return Shown(displayed, min(luminance(shown), LARGEST_HALF));
@@ -92,6 +104,20 @@ fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> Shown {
     let stored = min(scaled, vec3f(LARGEST_HALF));
     // Blending is premultiplied; coverage of a mask acts through the samples instead.
     return Shown(vec4f(select(stored, stored * coverage, ALPHA_MODE == ALPHA_BLEND), coverage), 0.0);
+}
+
+// What white paint shows in the light of the vertices.
+fn stored_radiance(in: Varying) -> vec3f {
+    if !IS_TILED {
+        return max(in.white_radiance, vec3f(0.0));
+    }
+    // Beside the triangle, where the middle of a pixel on its edge may be, lies another tile.
+    let handed = handed_place(in);
+    let clamped = clamp(handed.xy, vec2f(0.0), vec2f(1.0));
+    let place = clamped - 0.5 * max(clamped.x + clamped.y - 1.0, 0.0);
+    let texel = handed.zw + in.emissive_uv_and_scales.w * place;
+    let radiance = max(textureSampleLevel(tiles, between_texels, texel, 0.0).rgb, vec3f(0.0));
+    return select(radiance / frame.pre_exposure, radiance, shows_light());
 }
 
 // What white paint shows of it.
@@ -108,8 +134,8 @@ fn direct_radiance(direct: vec3f) -> vec3f {
 // Light is scaled by pre-exposure.
 fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
     let metallic = metallic(in.emission_and_metallic.w, in.base_and_metallic_uv.zw);
-    let emission = emission(in.emission_and_metallic.xyz, in.emissive_uv_and_scale.xy);
-    let light = max(in.white_radiance, vec3f(0.0)) + direct_radiance(direct);
+    let emission = emission(in.emission_and_metallic.xyz, in.emissive_uv_and_scales.xy);
+    let light = stored_radiance(in) + direct_radiance(direct);
     let reflectance = select(base * (1.0 - metallic), base, METAL_AS_DIFFUSE);
     switch SHADING {
         case SHADING_IRRADIANCE_ONLY: {

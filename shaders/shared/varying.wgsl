@@ -6,14 +6,22 @@ struct Varying {
     // Of vertex and material.
     @location(1) colour: vec4f,
     @location(2) base_and_metallic_uv: vec4f,
-    @location(3) emissive_uv_and_scale: vec3f,
+    @location(3) emissive_uv_and_scales: vec4f,
     // Radiance of an ideal white surface; centroid, so that it is never extrapolated beyond the triangle.
     @location(4) @interpolate(perspective, centroid) white_radiance: vec3f,
     // Of the material where it has no textures.
     @location(5) @interpolate(flat) emission_and_metallic: vec4f,
+    // Where light lies in tiles.
+    @location(6) place: vec4f,
+}
+
+fn handed_place(in: Varying) -> vec4f {
+    return in.place;
 }
 
 @vertex
 fn vertex(in: Vertex) -> Varying {
-    return surface_varying(in);
+    var out = surface_varying(in);
+    out.place = tile_place(in);
+    return out;
 }

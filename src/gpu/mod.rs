@@ -2,6 +2,7 @@
 //!
 //! wgpu is met here, in `form_factor::hemicube`, `render` and `viewer`, and nowhere else.
 
+mod coarse;
 pub mod context;
 pub mod material_buffers;
 pub mod mip;
@@ -9,11 +10,13 @@ pub mod readback;
 pub mod scene_buffers;
 mod scene_order;
 mod scene_part;
-mod scene_view;
+pub mod scene_view;
 pub mod shaders;
 pub mod stopwatch;
 pub mod targets;
 pub mod textures;
+pub mod tiled_mesh;
+pub mod tiles;
 pub mod vertex_light;
 mod vertex_order;
 

@@ -10,14 +10,16 @@ use glam::{Vec2, Vec3};
 use wgpu::util::DeviceExt;
 
 use super::Gpu;
+use super::coarse::CoarseMesh;
 use super::material_buffers::material_bind_groups;
 use super::scene_order::{Order, index_buffer, order};
 use super::scene_view::Chunk;
+use super::tiled_mesh::TiledMesh;
 use super::vertex_light::LightBuffer;
 use super::vertex_order::VertexOrder;
 use crate::baked::{BakedScene, VertexLight};
 use crate::base::ids::MaterialId;
-use crate::scene::{AlphaMode, Scene};
+use crate::scene::{AlphaMode, Scene, Vertex};
 
 /// Half floats, of which HDR textures are made, hold this and four times as much.
 const COMFORTABLE_RADIANCE: f32 = 16_384.0;
@@ -34,6 +36,8 @@ pub struct SceneBuffers {
     pub materials: Vec<wgpu::BindGroup>,
     /// Triangles by material, those that blend last.
     pub batches: Vec<Batch>,
+    /// The same surfaces in fewer triangles, where the scene is a bake.
+    pub tiled: Option<TiledMesh>,
     /// Power of two that brings the scene's radiance into the range of half floats.
     pub pre_exposure: f32,
     pub(super) chunks: Vec<Chunk>,
@@ -58,6 +62,8 @@ pub struct Batch {
     pub has_textures: bool,
     /// Its material shows its base colour as it is, without light.
     pub is_unlit: bool,
+    /// Its light is in tiles, not at its vertices.
+    pub is_tiled: bool,
 }
 
 /// Which faces of a batch's triangles are surfaces.
@@ -69,6 +75,18 @@ pub enum Faces {
     FrontOfTwins,
     /// Both faces of one triangle: a double-sided surface that was not baked.
     Both,
+}
+
+impl Faces {
+    /// Nothing is seen from behind, where single-sided surfaces are not if `cull_back` says so.
+    #[must_use]
+    pub fn are_culled(self, cull_back: bool) -> bool {
+        match self {
+            Faces::Front => cull_back,
+            Faces::FrontOfTwins => true,
+            Faces::Both => false,
+        }
+    }
 }
 
 /// A vertex as the vertex buffer holds it.
@@ -90,17 +108,27 @@ impl GpuVertex {
     };
 }
 
+impl From<&Vertex> for GpuVertex {
+    fn from(vertex: &Vertex) -> Self {
+        let Vertex { position, normal, uv, colour } = *vertex;
+        Self { position, normal, uv, colour: colour.to_array() }
+    }
+}
+
 impl SceneBuffers {
     /// Uploads triangles, materials, textures (with mip maps) and light.
     #[must_use]
     pub fn new(gpu: &Gpu, baked: &BakedScene) -> Self {
         let scene = &baked.scene;
         let num_groups = scene.light_groups.len().max(baked.light.groups.len());
-        let Order { batches, chunks, indices } = order(scene, |_| true);
+        let max_side = gpu.device.limits().max_texture_dimension_2d;
+        let (order, coarse) = rayon::join(|| order(scene, |_| true), || CoarseMesh::new(scene, max_side));
+        let (Order { batches, chunks, .. }, indices) = order;
         let vertex_order = VertexOrder::new(&indices, scene.vertices.len());
         let buffers = Self {
             vertices: vertex_buffer(gpu, scene, &vertex_order),
             indices: index_buffer(gpu, &vertex_order.indices(&indices)),
+            tiled: coarse.map(|coarse| TiledMesh::new(gpu, scene, &vertex_order, &coarse)),
             vertex_order,
             materials: material_bind_groups(gpu, scene),
             batches,
@@ -128,11 +156,7 @@ impl SceneBuffers {
 }
 
 fn vertex_buffer(gpu: &Gpu, scene: &Scene, order: &VertexOrder) -> wgpu::Buffer {
-    let vertices: Vec<_> = scene
-        .vertices
-        .iter()
-        .map(|v| GpuVertex { position: v.position, normal: v.normal, uv: v.uv, colour: v.colour.to_array() })
-        .collect();
+    let vertices: Vec<GpuVertex> = scene.vertices.iter().map(GpuVertex::from).collect();
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
         label: Some("scene vertices"),
         contents: bytemuck::cast_slice(&order.sorted(&vertices)),

@@ -13,47 +13,73 @@ use crate::scene::{AlphaMode, Scene, Triangle};
 pub(super) struct Order {
     pub batches: Vec<Batch>,
     pub chunks: Vec<Chunk>,
-    /// Three a triangle.
-    pub indices: Vec<u32>,
+    pub triangles: Vec<TriangleId>,
 }
 
-/// Sorts the triangles that are shown by material, those that blend last, and cuts them into batches and chunks.
-pub(super) fn order(scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> Order {
-    let has_twins = scene.triangles.iter().any(|triangle| triangle.is_back_side);
-    let material_of = |id: &TriangleId| scene.triangles[id.index()].material;
-    let blends = |id: &TriangleId| scene.material_of(*id).alpha_mode == AlphaMode::Blend;
-    let all = (0..scene.triangles.len()).map(TriangleId::new);
-    let mut triangles: Vec<TriangleId> = all.filter(|id| is_shown(&scene.triangles[id.index()])).collect();
-    triangles.sort_by_key(|id| (blends(id), material_of(id)));
-    let mut order = Order { batches: Vec::new(), chunks: Vec::new(), indices: Vec::new() };
-    for same in triangles.chunk_by(|a, b| material_of(a) == material_of(b)) {
-        // What blends is drawn as the file has it.
-        let same = if blends(&same[0]) { same.to_vec() } else { spatial_order(scene, same.iter().copied()) };
-        let start = order.indices.len() as u32;
-        let triangle_at = |place: usize| start + 3 * place.min(same.len()) as u32;
-        for (i, bounds) in chunk_bounds(scene, &same).into_iter().enumerate() {
-            let indices = triangle_at(i * CHUNK)..triangle_at((i + 1) * CHUNK);
-            order.chunks.push(Chunk { batch: order.batches.len(), indices, bounds });
+/// Which of some triangles are drawn, and which of these have their light in tiles.
+pub(super) struct Drawn<'a> {
+    /// Triangles of a scene's vertices and materials.
+    pub triangles: &'a [Triangle],
+    /// The first of them have their light in tiles, and these are so many.
+    pub num_tiled: usize,
+}
+
+impl Drawn<'_> {
+    /// Sorts the triangles that are shown by material, those that blend last, and cuts them into batches and chunks.
+    pub fn order(&self, scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> Order {
+        let has_twins = self.triangles.iter().any(|triangle| triangle.is_back_side);
+        let material_of = |id: &TriangleId| self.triangles[id.index()].material;
+        let blends = |id: &TriangleId| scene.materials[material_of(id).index()].alpha_mode == AlphaMode::Blend;
+        let key = |id: &TriangleId| (blends(id), material_of(id), id.index() >= self.num_tiled);
+        let corners = |id: TriangleId| self.triangles[id.index()].vertices.map(|v| scene.vertices[v as usize].position);
+        let all = (0..self.triangles.len()).map(TriangleId::new);
+        let mut triangles: Vec<TriangleId> = all.filter(|id| is_shown(&self.triangles[id.index()])).collect();
+        triangles.sort_by_key(key);
+        let mut order = Order { batches: Vec::new(), chunks: Vec::new(), triangles: Vec::new() };
+        for same in triangles.chunk_by(|a, b| key(a) == key(b)) {
+            // What blends is drawn as the file has it.
+            let same = if blends(&same[0]) { same.to_vec() } else { spatial_order(corners, same.iter().copied()) };
+            let start = 3 * order.triangles.len() as u32;
+            let triangle_at = |place: usize| start + 3 * place.min(same.len()) as u32;
+            for (i, bounds) in chunk_bounds(corners, &same).into_iter().enumerate() {
+                let indices = triangle_at(i * CHUNK)..triangle_at((i + 1) * CHUNK);
+                order.chunks.push(Chunk { batch: order.batches.len(), indices, bounds });
+            }
+            let material = &scene.materials[material_of(&same[0]).index()];
+            let faces = match (material.double_sided, has_twins) {
+                (false, _) => Faces::Front,
+                (true, true) => Faces::FrontOfTwins,
+                (true, false) => Faces::Both,
+            };
+            order.batches.push(Batch {
+                indices: start..triangle_at(same.len()),
+                material: material_of(&same[0]),
+                alpha_mode: material.alpha_mode,
+                faces,
+                has_textures: material.base_colour_texture.is_some()
+                    || material.metallic_roughness_texture.is_some()
+                    || material.emissive_texture.is_some(),
+                is_unlit: material.unlit,
+                is_tiled: same[0].index() < self.num_tiled,
+            });
+            order.triangles.extend(same);
         }
-        order.indices.extend(same.iter().flat_map(|id| scene.triangles[id.index()].vertices));
-        let material = scene.material_of(same[0]);
-        let faces = match (material.double_sided, has_twins) {
-            (false, _) => Faces::Front,
-            (true, true) => Faces::FrontOfTwins,
-            (true, false) => Faces::Both,
-        };
-        order.batches.push(Batch {
-            indices: start..triangle_at(same.len()),
-            material: material_of(&same[0]),
-            alpha_mode: material.alpha_mode,
-            faces,
-            has_textures: material.base_colour_texture.is_some()
-                || material.metallic_roughness_texture.is_some()
-                || material.emissive_texture.is_some(),
-            is_unlit: material.unlit,
-        });
+        order
     }
-    order
+}
+
+impl Order {
+    /// Three vertices a triangle.
+    pub fn indices(&self, vertices: impl Fn(TriangleId) -> [u32; 3]) -> Vec<u32> {
+        self.triangles.iter().flat_map(|&id| vertices(id)).collect()
+    }
+}
+
+/// The triangles of a scene in the order of drawing, with three vertices each.
+pub(super) fn order(scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> (Order, Vec<u32>) {
+    let order = Drawn { triangles: &scene.triangles, num_tiled: 0 }.order(scene, is_shown);
+    let indices = order.indices(|id| scene.triangles[id.index()].vertices);
+    (order, indices)
 }
 
 pub(super) fn index_buffer(gpu: &Gpu, indices: &[u32]) -> wgpu::Buffer {
@@ -87,8 +113,8 @@ mod tests {
     fn blending_triangles_are_drawn_last() {
         let modes = [(AlphaMode::Blend, false), (AlphaMode::Opaque, false)];
         let scene = scene_of(&modes, vec![triangle(0, false), triangle(1, false), triangle(0, false)]);
-        let order = order(&scene, |_| true);
-        assert_eq!(order.indices, [1, 1, 1, 0, 0, 0, 0, 0, 0]);
+        let (order, indices) = order(&scene, |_| true);
+        assert_eq!(indices, [1, 1, 1, 0, 0, 0, 0, 0, 0]);
         assert_eq!(order.batches.iter().map(|b| b.indices.clone()).collect::<Vec<_>>(), [0..3, 3..9]);
     }
 
@@ -96,7 +122,7 @@ mod tests {
     fn double_sided_triangles_are_culled_only_where_their_twins_exist() {
         let modes = [(AlphaMode::Opaque, true), (AlphaMode::Opaque, false)];
         let faces = |triangles| -> Vec<Faces> {
-            order(&scene_of(&modes, triangles), |_| true).batches.iter().map(|b| b.faces).collect()
+            order(&scene_of(&modes, triangles), |_| true).0.batches.iter().map(|b| b.faces).collect()
         };
         assert_eq!(faces(vec![triangle(0, false), triangle(1, false)]), [Faces::Both, Faces::Front]);
         assert_eq!(faces(vec![triangle(0, false), triangle(0, true)]), [Faces::FrontOfTwins]);
@@ -105,18 +131,18 @@ mod tests {
     #[test]
     fn chunks_are_the_batches_cut_into_pieces() {
         let scene = builtin::gallery();
-        let order = order(&scene, |_| true);
+        let (order, indices) = order(&scene, |_| true);
         assert!(order.chunks.len() > order.batches.len());
         let mut end = 0;
         for chunk in &order.chunks {
             let batch = &order.batches[chunk.batch].indices;
             assert!(chunk.indices.start == end && batch.start <= end && chunk.indices.end <= batch.end);
             end = chunk.indices.end;
-            for &vertex in &order.indices[chunk.indices.start as usize..end as usize] {
+            for &vertex in &indices[chunk.indices.start as usize..end as usize] {
                 let p = scene.vertices[vertex as usize].position;
                 assert!(p.cmpge(chunk.bounds.low).all() && p.cmple(chunk.bounds.high).all());
             }
         }
-        assert_eq!(end as usize, order.indices.len());
+        assert_eq!(end as usize, indices.len());
     }
 }

@@ -9,7 +9,9 @@ impl SceneBuffers {
     /// one is that of the other too.
     #[must_use]
     pub fn part(&self, gpu: &Gpu, scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> Self {
-        let Order { batches, chunks, indices } = order(scene, is_shown);
-        self.sharing_buffers(index_buffer(gpu, &self.vertex_order.indices(&indices)), batches, chunks)
+        let (Order { batches, chunks, .. }, indices) = order(scene, &is_shown);
+        let indices = index_buffer(gpu, &self.vertex_order.indices(&indices));
+        let tiled = self.tiled.as_ref().map(|tiled| tiled.part(gpu, scene, &self.vertex_order, is_shown));
+        self.sharing_buffers(indices, batches, chunks, tiled)
     }
 }

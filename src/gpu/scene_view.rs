@@ -2,8 +2,11 @@
 
 use std::ops::Range;
 
-use super::SceneBuffers;
+use glam::Vec4;
+
 use super::scene_buffers::Batch;
+use super::tiled_mesh::TiledMesh;
+use super::{Gpu, SceneBuffers};
 use crate::base::bounds::{Bounds, Frustum};
 
 /// Neighbouring triangles of one batch.
@@ -14,22 +17,53 @@ pub(super) struct Chunk {
     pub bounds: Bounds,
 }
 
+/// From where a scene is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Outlook {
+    /// What is in view.
+    pub frustum: Frustum,
+    /// The eye with w = 1, or the direction towards it with w = 0.
+    pub eye: Vec4,
+    /// Single-sided surfaces are not seen from behind.
+    pub cull_back: bool,
+}
+
+impl Outlook {
+    /// How far a chunk is away, in any measure; none where it is out of view.
+    pub(super) fn distance(&self, chunk: &Chunk) -> Option<f32> {
+        let Bounds { low, high } = chunk.bounds;
+        let eye = self.eye.truncate();
+        self.frustum.meets(&chunk.bounds).then(|| match self.eye.w {
+            0.0 => -eye.dot(0.5 * (low + high)),
+            _ => eye.distance_squared(eye.clamp(low, high)),
+        })
+    }
+}
+
 impl SceneBuffers {
     /// The part of the scene that a view may see, in the same buffers.
     #[must_use]
-    pub fn in_view(&self, frustum: &Frustum) -> Self {
-        let batches = seen(&self.batches, &self.chunks, frustum);
-        self.sharing_buffers(self.indices.clone(), batches, Vec::new())
+    pub fn in_view(&self, gpu: &Gpu, from: &Outlook) -> Self {
+        let batches = seen(&self.batches, &self.chunks, &from.frustum);
+        let tiled = self.tiled.as_ref().map(|tiled| tiled.in_view(gpu, from));
+        self.sharing_buffers(self.indices.clone(), batches, Vec::new(), tiled)
     }
 
     /// Other triangles of the same vertices.
-    pub(super) fn sharing_buffers(&self, indices: wgpu::Buffer, batches: Vec<Batch>, chunks: Vec<Chunk>) -> Self {
+    pub(super) fn sharing_buffers(
+        &self,
+        indices: wgpu::Buffer,
+        batches: Vec<Batch>,
+        chunks: Vec<Chunk>,
+        tiled: Option<TiledMesh>,
+    ) -> Self {
         Self {
             vertices: self.vertices.clone(),
             indices,
             materials: self.materials.clone(),
             batches,
             chunks,
+            tiled,
             pre_exposure: self.pre_exposure,
             light: self.light.clone(),
             num_groups: self.num_groups,
@@ -68,7 +102,7 @@ mod tests {
     #[test]
     fn all_that_is_in_view_is_drawn_in_its_material_and_not_all_that_there_is() {
         let scene = builtin::gallery();
-        let all = order(&scene, |_| true);
+        let (all, indices) = order(&scene, |_| true);
         let (low, high) = scene.bounds();
         let eye = low.lerp(high, 0.5);
         for towards in [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z, Vec3::new(0.4, -0.8, 0.3)] {
@@ -83,7 +117,7 @@ mod tests {
             for batch in &all.batches {
                 for first in batch.indices.clone().step_by(3) {
                     let drawn = batches.iter().filter(|b| b.material == batch.material && b.indices.contains(&first));
-                    let (corners, count) = (&all.indices[first as usize..][..3], drawn.count());
+                    let (corners, count) = (&indices[first as usize..][..3], drawn.count());
                     assert!(count == 1 || count == 0 && !corners.iter().any(|&c| in_view(c)), "{first}: {count}");
                     num_seen += count;
                 }

@@ -74,6 +74,8 @@ pub const SURFACE_FEW_LIGHTS: Shader = shader!(
 );
 /// Light of the vertices summed over the light groups.
 pub const WEIGH_GROUPS: Shader = shader!("weigh groups", "shared/frame.wgsl", "weigh_groups.wgsl");
+/// Light of the vertices spread over the tiles of a coarse mesh.
+pub const FILL_TILES: Shader = shader!("fill tiles", "shared/frame.wgsl", "fill_tiles.wgsl");
 /// Depth of the visible surfaces.
 pub const DEPTH_PREPASS: Shader =
     shader!("depth prepass", "shared/frame.wgsl", "shared/material.wgsl", "depth_prepass.wgsl");
@@ -178,6 +180,7 @@ pub const ALL: &[&Shader] = &[
     &SURFACE_LIT_SAMPLES,
     &SURFACE_FEW_LIGHTS,
     &WEIGH_GROUPS,
+    &FILL_TILES,
     &DEPTH_PREPASS,
     &DIRECT_LIGHT,
     &SHADOW_VOLUME,

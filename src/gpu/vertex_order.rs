@@ -28,9 +28,14 @@ impl VertexOrder {
         Self { places: places.into() }
     }
 
+    /// Index of a vertex on the device.
+    pub fn place(&self, vertex: u32) -> u32 {
+        self.places[vertex as usize]
+    }
+
     /// Indices into the vertices on the device.
     pub fn indices(&self, indices: &[u32]) -> Vec<u32> {
-        indices.iter().map(|&vertex| self.places[vertex as usize]).collect()
+        indices.iter().map(|&vertex| self.place(vertex)).collect()
     }
 
     /// What belongs to the vertices `[v]` of the scene, as it lies on the device.

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::frame_uniform::{frame_bind_group, frame_layout};
+use super::light_tiles::TileFiller;
 use super::meter::{Meter, Seen};
 use super::shadow::ShadowScene;
 use super::shadow::debug::DebugPass;
@@ -22,6 +23,7 @@ use crate::scene::AlphaMode;
 pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     weighted: WeightedLight,
+    tile_filler: TileFiller,
     /// Made when they are first needed.
     surfaces: HashMap<DirectSource, SurfacePass>,
     /// Made for the first picture whose direct light comes from the lights.
@@ -49,6 +51,7 @@ impl Renderer {
         let frame_layout = frame_layout(gpu);
         Self {
             weighted: WeightedLight::new(gpu, &frame_layout),
+            tile_filler: TileFiller::new(gpu, &frame_layout),
             surfaces: HashMap::new(),
             live: None,
             keeps_radiance: false,
@@ -117,7 +120,7 @@ impl Renderer {
     ) {
         let (Some(settings), Some(shadows)) = (&look.shadows, &self.shadows) else { return };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
-        let seen = &scene.in_view(&view.frustum());
+        let seen = &scene.in_view(gpu, &view.outlook(look));
         let subject = Subject { frame: &frame, scene, seen, shadows, view, look, watch: self.watch.as_deref() };
         let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
         live.draw(gpu, encoder, size, subject, settings);
@@ -141,7 +144,7 @@ impl Renderer {
 
         // The light of the vertices, each group as bright as wanted.
         let stored = self.weighted.of(gpu, encoder, &frame, scene, look).clone();
-        let seen = &scene.in_view(&view.frustum());
+        let seen = &scene.in_view(gpu, &view.outlook(look));
         let subject = self.shadows.as_ref().map(|shadows| Subject {
             frame: &frame,
             scene,
@@ -168,6 +171,10 @@ impl Renderer {
         };
         let exposure = self.followed.as_ref().unwrap_or(self.meter.exposure());
         let source = DirectSource::of(live.as_ref());
+        if let Some(tiled) = scene.tiled.as_ref().filter(|_| source.shows_tiles()) {
+            let lit_by_lights = live.is_some();
+            self.tile_filler.fill(gpu, encoder, &frame, scene, &tiled.tiles, look, &stored, lit_by_lights);
+        }
         let surface = self.surfaces.entry(source);
         let surface = surface.or_insert_with(|| SurfacePass::new(gpu, &self.frame_layout, self.samples, source));
         surface.draw(gpu, encoder, &onto, &frame, seen, look, &stored, exposure, live.as_ref());

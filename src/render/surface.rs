@@ -9,6 +9,7 @@ use super::surface_targets::SurfaceTargets;
 use super::surface_variant::Variant;
 use crate::gpu::material_buffers::material_layout;
 use crate::gpu::scene_buffers::Batch;
+use crate::gpu::targets::HDR_FORMAT;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 
 /// Pipelines that are kept; those of a look are a few, and a software driver keeps a megabyte for each.
@@ -23,7 +24,11 @@ pub struct SurfacePass {
     /// Made when they are first needed.
     pipelines: HashMap<(Variant, Option<Kinds>), wgpu::RenderPipeline>,
     /// Of bind group 1.
-    exposure_layout: wgpu::BindGroupLayout,
+    light_layout: wgpu::BindGroupLayout,
+    /// Between texels of tiles.
+    sampler: wgpu::Sampler,
+    /// Stands where there are no tiles.
+    no_tiles: wgpu::TextureView,
     /// Of bind group 3, where there is one.
     direct_layout: Option<wgpu::BindGroupLayout>,
 }
@@ -52,6 +57,11 @@ impl DirectSource {
         }
     }
 
+    /// Surfaces are drawn as their coarse mesh has them: where no texture tells the light of pixels that the elements cover.
+    pub fn shows_tiles(self) -> bool {
+        matches!(self, DirectSource::Stored | DirectSource::Few)
+    }
+
     fn shader(self) -> &'static shaders::Shader {
         match self {
             DirectSource::Stored => &shaders::SURFACE,
@@ -71,20 +81,42 @@ impl DirectSource {
     }
 }
 
-/// One f32, as the light meter leaves it.
-fn exposure_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
-    let exposure = wgpu::BindGroupLayoutEntry {
-        binding: 0,
-        visibility: wgpu::ShaderStages::VERTEX,
-        ty: wgpu::BindingType::Buffer {
-            ty: wgpu::BufferBindingType::Storage { read_only: true },
-            has_dynamic_offset: false,
-            min_binding_size: None,
-        },
-        count: None,
+/// Exposure as the light meter leaves it, one f32; the tiles of a coarse mesh and how they are sampled.
+fn light_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
+    let exposure = wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Storage { read_only: true },
+        has_dynamic_offset: false,
+        min_binding_size: None,
     };
-    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("exposure"), entries: &[exposure] };
-    gpu.device.create_bind_group_layout(&descriptor)
+    let tiles = wgpu::BindingType::Texture {
+        sample_type: wgpu::TextureSampleType::Float { filterable: true },
+        view_dimension: wgpu::TextureViewDimension::D2,
+        multisampled: false,
+    };
+    let sampler = wgpu::BindingType::Sampler(wgpu::SamplerBindingType::Filtering);
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("exposure and tiles"),
+        entries: &[
+            entry(0, wgpu::ShaderStages::VERTEX, exposure),
+            entry(1, wgpu::ShaderStages::FRAGMENT, tiles),
+            entry(2, wgpu::ShaderStages::FRAGMENT, sampler),
+        ],
+    })
+}
+
+fn no_tiles(gpu: &Gpu) -> wgpu::TextureView {
+    let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("no tiles"),
+        size: wgpu::Extent3d { width: 1, height: 1, depth_or_array_layers: 1 },
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: HDR_FORMAT,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING,
+        view_formats: &[],
+    });
+    texture.create_view(&Default::default())
 }
 
 fn texture_layout(gpu: &Gpu, multisampled: bool) -> wgpu::BindGroupLayout {
@@ -108,15 +140,23 @@ impl SurfacePass {
         let direct_layout = source.layout(gpu);
         let module = source.shader().module(&gpu.device);
         let material = material_layout(gpu);
-        let exposure_layout = exposure_layout(gpu);
-        let mut layouts = vec![Some(frame_layout), Some(&exposure_layout), Some(&material)];
+        let light_layout = light_layout(gpu);
+        let mut layouts = vec![Some(frame_layout), Some(&light_layout), Some(&material)];
         layouts.extend(direct_layout.as_ref().map(Some));
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("surface"),
             bind_group_layouts: &layouts,
             immediate_size: 0,
         });
-        Self { source, layout, module, samples, pipelines: HashMap::new(), exposure_layout, direct_layout }
+        let sampler = gpu.device.create_sampler(&wgpu::SamplerDescriptor {
+            label: Some("between texels of tiles"),
+            mag_filter: wgpu::FilterMode::Linear,
+            min_filter: wgpu::FilterMode::Linear,
+            ..Default::default()
+        });
+        let no_tiles = no_tiles(gpu);
+        let pipelines = HashMap::new();
+        Self { source, layout, module, samples, pipelines, light_layout, sampler, no_tiles, direct_layout }
     }
 
     /// Clears the targets and draws the scene into them, its vertices in the light of `stored`. What is displayed at once without
@@ -142,29 +182,43 @@ impl SurfacePass {
         if self.pipelines.len() > MOST_PIPELINES {
             self.pipelines.clear();
         }
-        for needed in scene.batches.iter().map(variant) {
+        let tiled = scene.tiled.as_ref().filter(|_| self.source.shows_tiles());
+        let (indices, batches) = match tiled {
+            Some(tiled) => (&tiled.indices, &tiled.batches),
+            None => (&scene.indices, &scene.batches),
+        };
+        for needed in batches.iter().map(variant) {
             if !self.pipelines.contains_key(&needed) {
                 self.pipelines.insert(needed, self.pipeline(gpu, needed));
             }
         }
         let live = live.and_then(|live| self.bind(gpu, live));
-        let exposure = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("exposure"),
-            layout: &self.exposure_layout,
-            entries: &[wgpu::BindGroupEntry { binding: 0, resource: exposure.as_entire_binding() }],
+        let tiles = tiled.map_or(&self.no_tiles, |tiled| &tiled.tiles.light);
+        let light = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("exposure and tiles"),
+            layout: &self.light_layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: exposure.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: wgpu::BindingResource::TextureView(tiles) },
+                wgpu::BindGroupEntry { binding: 2, resource: wgpu::BindingResource::Sampler(&self.sampler) },
+            ],
         });
         let mut pass = targets.begin(encoder);
         if live.is_some() {
             pass.set_bind_group(3, &live, &[]);
         }
         pass.set_bind_group(0, frame, &[]);
-        pass.set_bind_group(1, &exposure, &[]);
-        if !scene.batches.is_empty() {
-            pass.set_vertex_buffer(0, scene.vertices.slice(..));
-            pass.set_vertex_buffer(1, stored.slice(..));
-            pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
+        pass.set_bind_group(1, &light, &[]);
+        if !batches.is_empty() {
+            pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
         }
-        for batch in &scene.batches {
+        for batch in batches {
+            let (vertices, stored) = match tiled.filter(|_| batch.is_tiled) {
+                Some(tiled) => (&tiled.vertices, &tiled.places),
+                None => (&scene.vertices, stored),
+            };
+            pass.set_vertex_buffer(0, vertices.slice(..));
+            pass.set_vertex_buffer(1, stored.slice(..));
             pass.set_pipeline(&self.pipelines[&variant(batch)]);
             pass.set_bind_group(2, &scene.materials[batch.material.index()], &[]);
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);

@@ -3,7 +3,9 @@
 use glam::camera::rh::proj::directx;
 use glam::{Mat4, Vec3, Vec4};
 
+use super::Look;
 use crate::base::bounds::Frustum;
+use crate::gpu::scene_view::Outlook;
 use crate::scene::{Camera, Projection};
 
 /// Near plane of a perspective view, metres; reversed depth stays exact however near it is.
@@ -44,6 +46,12 @@ impl View {
     #[must_use]
     pub fn frustum(&self) -> Frustum {
         Frustum::new(&self.projection_from_world())
+    }
+
+    /// What of a scene may be seen, as `look` shows backs.
+    #[must_use]
+    pub fn outlook(&self, look: &Look) -> Outlook {
+        Outlook { frustum: self.frustum(), eye: self.eye(), cull_back: look.cull_back }
     }
 
     /// Matrix from world space to clip space.

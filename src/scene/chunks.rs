@@ -5,7 +5,6 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::Scene;
 use crate::base::bounds::Bounds;
 use crate::base::ids::TriangleId;
 
@@ -13,9 +12,12 @@ use crate::base::ids::TriangleId;
 pub const CHUNK: usize = 64;
 
 /// Some triangles, chunk by chunk; those of a chunk, and chunks, lie near those beside them.
-pub fn spatial_order(scene: &Scene, triangles: impl Iterator<Item = TriangleId>) -> Vec<TriangleId> {
+pub fn spatial_order(
+    corners: impl Fn(TriangleId) -> [Vec3; 3],
+    triangles: impl Iterator<Item = TriangleId>,
+) -> Vec<TriangleId> {
     let placed = |id: TriangleId| {
-        let corners = scene.corners(id);
+        let corners = corners(id);
         let bounds = Bounds::of(corners.into_iter());
         Placed { id, bounds, centroid: corners.into_iter().sum::<Vec3>() / 3.0 }
     };
@@ -25,8 +27,8 @@ pub fn spatial_order(scene: &Scene, triangles: impl Iterator<Item = TriangleId>)
 }
 
 /// The boxes of the chunks of triangles in this order.
-pub fn chunk_bounds(scene: &Scene, order: &[TriangleId]) -> Vec<Bounds> {
-    order.chunks(CHUNK).map(|chunk| Bounds::of(chunk.iter().flat_map(|t| scene.corners(*t)))).collect()
+pub fn chunk_bounds(corners: impl Fn(TriangleId) -> [Vec3; 3], order: &[TriangleId]) -> Vec<Bounds> {
+    order.chunks(CHUNK).map(|chunk| Bounds::of(chunk.iter().flat_map(|&t| corners(t)))).collect()
 }
 
 #[derive(Clone, Copy)]
@@ -86,11 +88,12 @@ mod tests {
     #[test]
     fn chunks_hold_every_triangle_once_in_less_room_than_the_file_gives_them() {
         let scene = builtin::gallery();
-        let order = spatial_order(&scene, (0..scene.triangles.len()).map(TriangleId::new));
+        let corners = |t| scene.corners(t);
+        let order = spatial_order(corners, (0..scene.triangles.len()).map(TriangleId::new));
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.iter().enumerate().all(|(t, id)| id.index() == t) && sorted.len() == scene.triangles.len());
-        let room = |order: &[TriangleId]| -> f32 { chunk_bounds(&scene, order).iter().map(Bounds::half_area).sum() };
+        let room = |order: &[TriangleId]| -> f32 { chunk_bounds(corners, order).iter().map(Bounds::half_area).sum() };
         assert!(room(&order) < 0.8 * room(&sorted), "{} of {}", room(&order), room(&sorted));
     }
 }

@@ -8,3 +8,4 @@ mod relit;
 mod sides;
 mod stage;
 mod textures;
+mod tiles;

@@ -39,7 +39,7 @@ struct Seen {
 
 impl Culling {
     pub(super) fn new(scene: &Scene, order: &[TriangleId]) -> Self {
-        let chunks = chunk_bounds(scene, order);
+        let chunks = chunk_bounds(|t| scene.corners(t), order);
         let lanes =
             order.chunks(LANES).map(|triangles| lanes_of(triangles.iter().map(|t| scene.corners(*t)))).collect();
         let reach = chunks.iter().map(|b| b.low.abs().max(b.high.abs()).max_element()).fold(0.0, f32::max);

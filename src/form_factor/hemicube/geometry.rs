@@ -28,7 +28,7 @@ pub(super) struct Geometry {
 
 impl Geometry {
     pub(super) fn new(gpu: &Gpu, scene: &Scene, mesh: &PatchMesh) -> Self {
-        let order = spatial_order(scene, (0..scene.triangles.len()).map(TriangleId::new));
+        let order = spatial_order(|t| scene.corners(t), (0..scene.triangles.len()).map(TriangleId::new));
         let vertices: Vec<gpu_data::Vertex> = order.iter().flat_map(|&t| vertices_of(scene, mesh, t)).collect();
         let mut cutouts = Cutouts::default();
         let triangles: Vec<gpu_data::Triangle> = order.iter().map(|&t| cutouts.describe_triangle(scene, t)).collect();

@@ -89,7 +89,7 @@ impl Judge {
         let Case { scene, shadows, view, .. } = case;
         // The last case may have been another scene.
         self.light.forget();
-        let seen = &scene.in_view(&view.frustum());
+        let seen = &scene.in_view(gpu, &view.outlook(&look));
         of(&mut self.light, Subject { frame: &frame, scene, seen, shadows, view, look: &look, watch: None })
     }
 }

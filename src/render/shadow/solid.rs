@@ -1,7 +1,7 @@
 //! Drawing the solid surfaces of a scene: all but those that blend, with the faces that a look shows.
 
 use crate::gpu::SceneBuffers;
-use crate::gpu::scene_buffers::{Batch, Faces};
+use crate::gpu::scene_buffers::Batch;
 use crate::render::Look;
 use crate::scene::AlphaMode;
 
@@ -19,12 +19,7 @@ impl SolidPipelines {
 
     /// The pipeline of a batch.
     pub fn of(&self, batch: &Batch, look: &Look) -> &wgpu::RenderPipeline {
-        let culls = match batch.faces {
-            Faces::Front => look.cull_back,
-            Faces::FrontOfTwins => true,
-            Faces::Both => false,
-        };
-        if culls { &self.culled } else { &self.two_faced }
+        if batch.faces.are_culled(look.cull_back) { &self.culled } else { &self.two_faced }
     }
 
     /// Draws all solid batches; for passes that need no material because the depth prepass has cut the holes.

@@ -1,0 +1,149 @@
+//! The coarse mesh of a bake on the device, and what of it a picture draws.
+
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3, Vec4};
+use wgpu::util::DeviceExt;
+
+use super::Gpu;
+use super::coarse::{CoarseMesh, Tile};
+use super::scene_buffers::{Batch, GpuVertex};
+use super::scene_order::{Drawn, Order, index_buffer};
+use super::scene_view::{Chunk, Outlook};
+use super::tiles::Tiles;
+use super::vertex_order::VertexOrder;
+use crate::base::ids::TriangleId;
+use crate::scene::{AlphaMode, Scene, Triangle, edge_cross};
+
+/// The coarse mesh of a bake.
+#[derive(Clone)]
+pub struct TiledMesh {
+    /// [`GpuVertex`] of the corners of triangles with tiles; those without have the vertices of the scene.
+    pub vertices: wgpu::Buffer,
+    /// Two triples for each of these corners: its place in a tile, where vertices of the scene have irradiance.
+    pub places: wgpu::Buffer,
+    /// Three u32 a triangle, batch by batch.
+    pub indices: wgpu::Buffer,
+    /// Triangles by material, those with tiles apart.
+    pub batches: Vec<Batch>,
+    /// Their light.
+    pub tiles: Arc<Tiles>,
+    /// What pictures draw parts of.
+    drawing: Arc<Drawing>,
+    mesh: Arc<Mesh>,
+}
+
+/// Triangles in the order of drawing.
+struct Drawing {
+    chunks: Vec<Chunk>,
+    /// Their vertices on the device.
+    triangles: Vec<[u32; 3]>,
+    /// Their planes, positive in front.
+    planes: Vec<Vec4>,
+}
+
+/// Triangles of the scene's vertices, the first of which have tiles.
+struct Mesh {
+    triangles: Vec<Triangle>,
+    num_tiles: usize,
+}
+
+impl TiledMesh {
+    /// Uploads the coarse mesh of a scene, whose vertices lie in this order on the device.
+    pub(super) fn new(gpu: &Gpu, scene: &Scene, order: &VertexOrder, coarse: &CoarseMesh) -> Self {
+        let tiled = &coarse.triangles[..coarse.tiles.len()];
+        let corners = tiled.iter().flat_map(|triangle| triangle.vertices);
+        let vertices: Vec<GpuVertex> = corners.map(|v| GpuVertex::from(&scene.vertices[v as usize])).collect();
+        let places: Vec<[Vec3; 2]> =
+            coarse.tiles.iter().flat_map(|tile| corners_of(tile, coarse.side as f32)).collect();
+        let mesh = Mesh { num_tiles: coarse.tiles.len(), triangles: coarse.triangles.clone() };
+        let (batches, drawing) = mesh.drawing(scene, order, |_| true);
+        let buffer = |label, contents: &[u8], usage| {
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+        };
+        Self {
+            vertices: buffer("corners of tiles", bytemuck::cast_slice(&vertices), wgpu::BufferUsages::VERTEX),
+            places: buffer("places of tiles", bytemuck::cast_slice(&places), wgpu::BufferUsages::VERTEX),
+            indices: index_buffer(gpu, drawing.triangles.as_flattened()),
+            batches,
+            drawing: Arc::new(drawing),
+            tiles: Arc::new(Tiles::new(gpu, coarse, order, scene.vertices.len())),
+            mesh: Arc::new(mesh),
+        }
+    }
+
+    /// The triangles that are shown.
+    pub(super) fn part(
+        &self,
+        gpu: &Gpu,
+        scene: &Scene,
+        order: &VertexOrder,
+        is_shown: impl Fn(&Triangle) -> bool,
+    ) -> Self {
+        let (batches, drawing) = self.mesh.drawing(scene, order, is_shown);
+        let indices = index_buffer(gpu, drawing.triangles.as_flattened());
+        Self { indices, batches, drawing: Arc::new(drawing), ..self.clone() }
+    }
+
+    /// The triangles that may be seen, of each batch the nearest chunks first: what they hide is not shaded. Triangles that
+    /// show a back which is not drawn are left out here, since software drivers transform them like all others.
+    pub(super) fn in_view(&self, gpu: &Gpu, from: &Outlook) -> Self {
+        let mut near: Vec<(f32, &Chunk)> =
+            self.drawing.chunks.iter().filter_map(|c| Some((from.distance(c)?, c))).collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut indices: Vec<[u32; 3]> = Vec::new();
+        let mut batches = Vec::new();
+        for (number, batch) in self.batches.iter().enumerate() {
+            let first = 3 * indices.len() as u32;
+            let is_culled = batch.faces.are_culled(from.cull_back);
+            // What blends stays as it is.
+            let chunks: &mut dyn Iterator<Item = &Chunk> = match batch.alpha_mode {
+                AlphaMode::Blend => &mut self.drawing.chunks.iter(),
+                AlphaMode::Opaque | AlphaMode::Mask { .. } => &mut near.iter().map(|(_, chunk)| *chunk),
+            };
+            for chunk in chunks.filter(|chunk| chunk.batch == number) {
+                let range = chunk.indices.start as usize / 3..chunk.indices.end as usize / 3;
+                let triangles = self.drawing.triangles[range.clone()].iter().zip(&self.drawing.planes[range]);
+                let seen = triangles.filter(|(_, plane)| !is_culled || plane.dot(from.eye) > 0.0);
+                indices.extend(seen.map(|(triangle, _)| triangle));
+            }
+            let last = 3 * indices.len() as u32;
+            if last > first {
+                batches.push(Batch { indices: first..last, ..batch.clone() });
+            }
+        }
+        Self { indices: index_buffer(gpu, indices.as_flattened()), batches, ..self.clone() }
+    }
+}
+
+impl Mesh {
+    /// Batches, and the triangles of all in the order of drawing.
+    fn drawing(
+        &self,
+        scene: &Scene,
+        order: &VertexOrder,
+        is_shown: impl Fn(&Triangle) -> bool,
+    ) -> (Vec<Batch>, Drawing) {
+        let drawn = Drawn { triangles: &self.triangles, num_tiled: self.num_tiles };
+        let Order { batches, chunks, triangles } = drawn.order(scene, is_shown);
+        let vertices = |id: &TriangleId| match id.index() {
+            tile if tile < self.num_tiles => [0, 1, 2].map(|corner| 3 * tile as u32 + corner),
+            triangle => self.triangles[triangle].vertices.map(|v| order.place(v)),
+        };
+        let plane = |id: &TriangleId| {
+            let corners = self.triangles[id.index()].vertices.map(|v| scene.vertices[v as usize].position);
+            let normal = edge_cross(corners);
+            normal.extend(-normal.dot(corners[0]))
+        };
+        let planes = triangles.iter().map(plane).collect();
+        (batches, Drawing { chunks, triangles: triangles.iter().map(vertices).collect(), planes })
+    }
+}
+
+/// What the corners of a tile hold (shaders/surface.wgsl), in a texture so many texels wide.
+fn corners_of(tile: &Tile, texture: f32) -> [[Vec3; 2]; 3] {
+    // The middle of its texel.
+    let first = (tile.origin.as_vec2() + 0.5) / texture;
+    let width = tile.side as f32 / texture;
+    [Vec2::ZERO, Vec2::X, Vec2::Y].map(|corner| [corner.extend(first.x), Vec3::new(first.y, width, 0.0)])
+}

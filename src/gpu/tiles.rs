@@ -1,0 +1,107 @@
+//! The light of a coarse mesh on the device: a texture of tiles, and what it is filled from. `render::light_tiles` fills it.
+
+use std::sync::Mutex;
+
+use bytemuck::{Pod, Zeroable};
+use glam::{UVec2, Vec3};
+use wgpu::util::DeviceExt;
+
+use super::Gpu;
+use super::coarse::CoarseMesh;
+use super::targets::HDR_FORMAT;
+use super::vertex_light::LightVersion;
+use super::vertex_order::VertexOrder;
+
+/// The light of tiles, and what it is made from.
+pub struct Tiles {
+    /// Radiance of white paint, scaled by pre-exposure.
+    pub light: wgpu::TextureView,
+    /// `Element` of shaders/fill_tiles.wgsl, of each element that is in a tile.
+    pub elements: wgpu::Buffer,
+    /// The element of each texel, a u32, row by row.
+    pub element_of: wgpu::Buffer,
+    /// Texels that go on beyond the long sides of tiles, a u32 each.
+    pub beyond: wgpu::Buffer,
+    /// Room for radiance at the vertices of the scene, eight bytes each.
+    pub radiances: wgpu::Buffer,
+    /// Texels across and down.
+    pub side: u32,
+    /// What the texture holds; nothing at first.
+    pub held: Mutex<Option<HeldLight>>,
+}
+
+/// Light of the vertices, as tiles hold it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HeldLight {
+    /// The light.
+    pub light: LightVersion,
+    /// All numbers that it was weighted with.
+    pub weights: Vec<Vec3>,
+}
+
+/// `Element` of shaders/fill_tiles.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+struct TileElement {
+    vertices: [u32; 3],
+    corners: [u32; 3],
+}
+
+/// A texel as shaders/fill_tiles.wgsl has it: across, and in the upper half down.
+fn packed(texel: UVec2) -> u32 {
+    texel.x | texel.y << 16
+}
+
+impl Tiles {
+    /// Uploads all but the light.
+    pub(super) fn new(gpu: &Gpu, coarse: &CoarseMesh, order: &VertexOrder, num_vertices: usize) -> Self {
+        let element = |vertices: [u32; 3], corners: [UVec2; 3]| TileElement {
+            vertices: vertices.map(|v| order.place(v)),
+            corners: corners.map(packed),
+        };
+        let elements: Vec<TileElement> = coarse.elements.iter().map(|e| element(e.vertices, e.corners)).collect();
+        let beyond: Vec<u32> = coarse.beyond.iter().copied().map(packed).collect();
+        let buffer = |label, contents: &[u8]| {
+            let usage = wgpu::BufferUsages::STORAGE;
+            gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some(label), contents, usage })
+        };
+        let texture = gpu.device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("light of tiles"),
+            size: wgpu::Extent3d { width: coarse.side, height: coarse.side, depth_or_array_layers: 1 },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: HDR_FORMAT,
+            usage: wgpu::TextureUsages::STORAGE_BINDING | wgpu::TextureUsages::TEXTURE_BINDING,
+            view_formats: &[],
+        });
+        Self {
+            light: texture.create_view(&Default::default()),
+            elements: buffer("elements in tiles", bytemuck::cast_slice(&elements)),
+            element_of: buffer("elements of texels", bytemuck::cast_slice(&coarse.element_of)),
+            beyond: buffer("texels beyond tiles", bytemuck::cast_slice(&beyond)),
+            radiances: gpu.device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("radiance at vertices"),
+                size: 8 * num_vertices as u64,
+                usage: wgpu::BufferUsages::STORAGE,
+                mapped_at_creation: false,
+            }),
+            side: coarse.side,
+            held: Mutex::default(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gpu::coarse::NOTHING;
+    use crate::gpu::shaders::{FILL_TILES, constant, struct_layout};
+
+    #[test]
+    fn the_shader_reads_what_is_written() {
+        let written = [std::mem::offset_of!(TileElement, vertices), std::mem::offset_of!(TileElement, corners)];
+        assert_eq!(struct_layout(&FILL_TILES, "Element"), [written[0], written[1], size_of::<TileElement>()]);
+        assert_eq!(constant(&FILL_TILES, "NOTHING"), NOTHING);
+    }
+}

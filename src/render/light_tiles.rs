@@ -1,0 +1,143 @@
+//! Fills the tiles of a coarse mesh with the light of the vertices, where they do not hold it yet.
+
+use std::collections::HashMap;
+use std::sync::PoisonError;
+
+use glam::Vec3;
+
+use super::Look;
+use super::look::MAX_GROUPS;
+use crate::base::ids::GroupId;
+use crate::gpu::tiles::{HeldLight, Tiles};
+use crate::gpu::{Gpu, SceneBuffers, shaders};
+
+/// Invocations of a compute group.
+const GROUP: u32 = 64;
+/// Compute groups in a row: what every device can dispatch.
+const MAX_ROW: u32 = 65_535;
+
+/// One for vertices, one for texels in elements, one for those beyond long sides.
+struct Pipelines {
+    vertices: wgpu::ComputePipeline,
+    inside: wgpu::ComputePipeline,
+    beyond: wgpu::ComputePipeline,
+}
+
+/// Fills tiles.
+pub struct TileFiller {
+    layout: wgpu::BindGroupLayout,
+    pipeline_layout: wgpu::PipelineLayout,
+    /// Made when they are first needed: without direct light, and with it.
+    pipelines: HashMap<bool, Pipelines>,
+}
+
+impl TileFiller {
+    /// Without pipelines.
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
+        let layout = bind_group_layout(gpu);
+        let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("fill tiles"),
+            bind_group_layouts: &[Some(frame_layout), Some(&layout)],
+            immediate_size: 0,
+        });
+        Self { layout, pipeline_layout, pipelines: HashMap::new() }
+    }
+
+    /// Makes the tiles of a scene hold its light as `look` and its `frame` weigh it: `weighted` is that of the vertices.
+    #[expect(clippy::too_many_arguments, reason = "where to work (encoder, frame) and on what")]
+    pub fn fill(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        frame: &wgpu::BindGroup,
+        scene: &SceneBuffers,
+        tiles: &Tiles,
+        look: &Look,
+        weighted: &wgpu::Buffer,
+        lit_by_lights: bool,
+    ) {
+        let wanted = HeldLight { light: scene.light_version(), weights: weights(look, lit_by_lights) };
+        let mut held = tiles.held.lock().unwrap_or_else(PoisonError::into_inner);
+        if held.as_ref() == Some(&wanted) {
+            return;
+        }
+        *held = Some(wanted);
+        let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("fill tiles"),
+            layout: &self.layout,
+            entries: &[
+                wgpu::BindGroupEntry { binding: 0, resource: weighted.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 1, resource: tiles.elements.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 2, resource: tiles.element_of.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 3, resource: tiles.beyond.as_entire_binding() },
+                wgpu::BindGroupEntry { binding: 4, resource: wgpu::BindingResource::TextureView(&tiles.light) },
+                wgpu::BindGroupEntry { binding: 5, resource: tiles.radiances.as_entire_binding() },
+            ],
+        });
+        let pipelines = self.pipelines.entry(lit_by_lights);
+        let pipelines = pipelines.or_insert_with(|| Pipelines::new(gpu, &self.pipeline_layout, lit_by_lights));
+        let descriptor = wgpu::ComputePassDescriptor { label: Some("fill tiles"), timestamp_writes: None };
+        let mut pass = encoder.begin_compute_pass(&descriptor);
+        pass.set_bind_group(0, frame, &[]);
+        pass.set_bind_group(1, &bindings, &[]);
+        pass.set_pipeline(&pipelines.vertices);
+        let num_groups = (scene.num_vertices() as u32).div_ceil(GROUP);
+        pass.dispatch_workgroups(num_groups.min(MAX_ROW), num_groups.div_ceil(MAX_ROW), 1);
+        pass.set_pipeline(&pipelines.inside);
+        pass.dispatch_workgroups(tiles.side.div_ceil(GROUP), tiles.side, 1);
+        pass.set_pipeline(&pipelines.beyond);
+        let num_beyond = (tiles.beyond.size() / 4) as u32;
+        pass.dispatch_workgroups(num_beyond.div_ceil(GROUP), 1, 1);
+    }
+}
+
+/// All numbers on which the sum depends.
+fn weights(look: &Look, lit_by_lights: bool) -> Vec<Vec3> {
+    let direct = if lit_by_lights { 0.0 } else { look.direct };
+    let groups = (0..MAX_GROUPS).map(|group| look.group_weight(GroupId::new(group)));
+    groups.chain([look.ambient, Vec3::new(direct, look.indirect, 0.0)]).collect()
+}
+
+impl Pipelines {
+    fn new(gpu: &Gpu, layout: &wgpu::PipelineLayout, lit_by_lights: bool) -> Self {
+        let module = shaders::FILL_TILES.module(&gpu.device);
+        let constants = [("LIT_BY_LIGHTS", f64::from(u8::from(lit_by_lights)))];
+        let pipeline = |entry_point| {
+            gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+                label: Some("fill tiles"),
+                layout: Some(layout),
+                module: &module,
+                entry_point: Some(entry_point),
+                compilation_options: wgpu::PipelineCompilationOptions { constants: &constants, ..Default::default() },
+                cache: None,
+            })
+        };
+        Self { vertices: pipeline("sum_up"), inside: pipeline("fill"), beyond: pipeline("fill_beyond") }
+    }
+}
+
+fn bind_group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
+    let entry =
+        |binding, ty| wgpu::BindGroupLayoutEntry { binding, visibility: wgpu::ShaderStages::COMPUTE, ty, count: None };
+    let buffer = |read_only| wgpu::BindingType::Buffer {
+        ty: wgpu::BufferBindingType::Storage { read_only },
+        has_dynamic_offset: false,
+        min_binding_size: None,
+    };
+    let texture = wgpu::BindingType::StorageTexture {
+        access: wgpu::StorageTextureAccess::WriteOnly,
+        format: crate::gpu::targets::HDR_FORMAT,
+        view_dimension: wgpu::TextureViewDimension::D2,
+    };
+    gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("fill tiles"),
+        entries: &[
+            entry(0, buffer(true)),
+            entry(1, buffer(true)),
+            entry(2, buffer(true)),
+            entry(3, buffer(true)),
+            entry(4, texture),
+            entry(5, buffer(false)),
+        ],
+    })
+}
