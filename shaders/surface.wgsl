@@ -58,9 +58,11 @@ fn surface_varying(in: Vertex) -> Varying {
     out.emissive_uv_and_scales = vec4f(coordinate(material.emissive_slot, in.uv), target_scale(), tile_width);
     // Light is scaled by pre-exposure, other things are as they are.
     let scale = select(1.0, frame.pre_exposure, shows_light());
-    // Surfaces that blend stay with the stored light.
-    let direct = select(frame.direct, 0.0, LIT_BY_LIGHTS && ALPHA_MODE != ALPHA_BLEND);
-    out.white_radiance = scale * (frame.ambient + (direct * in.direct + frame.indirect * in.indirect) / PI);
+    if !IS_TILED {
+        // Surfaces that blend stay with the stored light.
+        let direct = select(frame.direct, 0.0, LIT_BY_LIGHTS && ALPHA_MODE != ALPHA_BLEND);
+        out.white_radiance = scale * (frame.ambient + (direct * in.direct + frame.indirect * in.indirect) / PI);
+    }
     out.emission_and_metallic = vec4f(scale * emission_factor(), material.metallic);
     return out;
 }

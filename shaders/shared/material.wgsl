@@ -45,6 +45,9 @@ struct Material {
 @group(2) @binding(6) var emissive_sampler: sampler;
 
 fn coordinate(slot: Slot, uv: vec4f) -> vec2f {
+    if !HAS_TEXTURES {
+        return vec2f(0.0);
+    }
     let at = vec3f(select(uv.xy, uv.zw, slot.uv_set == 1u), 1.0);
     return vec2f(dot(slot.u, at), dot(slot.v, at));
 }

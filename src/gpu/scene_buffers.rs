@@ -128,7 +128,7 @@ impl SceneBuffers {
         let buffers = Self {
             vertices: vertex_buffer(gpu, scene, &vertex_order),
             indices: index_buffer(gpu, &vertex_order.indices(&indices)),
-            tiled: coarse.map(|coarse| TiledMesh::new(gpu, scene, &vertex_order, &coarse)),
+            tiled: coarse.map(|coarse| TiledMesh::new(gpu, scene, &vertex_order, coarse)),
             vertex_order,
             materials: material_bind_groups(gpu, scene),
             batches,

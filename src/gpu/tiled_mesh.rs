@@ -50,7 +50,8 @@ struct Mesh {
 
 impl TiledMesh {
     /// Uploads the coarse mesh of a scene, whose vertices lie in this order on the device.
-    pub(super) fn new(gpu: &Gpu, scene: &Scene, order: &VertexOrder, coarse: &CoarseMesh) -> Self {
+    pub(super) fn new(gpu: &Gpu, scene: &Scene, order: &VertexOrder, mut coarse: CoarseMesh) -> Self {
+        sort_tiles(&mut coarse, scene);
         let tiled = &coarse.triangles[..coarse.tiles.len()];
         let corners = tiled.iter().flat_map(|triangle| triangle.vertices);
         let vertices: Vec<GpuVertex> = corners.map(|v| GpuVertex::from(&scene.vertices[v as usize])).collect();
@@ -67,7 +68,7 @@ impl TiledMesh {
             indices: index_buffer(gpu, drawing.triangles.as_flattened()),
             batches,
             drawing: Arc::new(drawing),
-            tiles: Arc::new(Tiles::new(gpu, coarse, order, scene.vertices.len())),
+            tiles: Arc::new(Tiles::new(gpu, &coarse, order, scene.vertices.len())),
             mesh: Arc::new(mesh),
         }
     }
@@ -114,6 +115,17 @@ impl TiledMesh {
         }
         Self { indices: index_buffer(gpu, indices.as_flattened()), batches, ..self.clone() }
     }
+}
+
+/// Brings tiles into the order of drawing: their corners lie on the device as they do here.
+fn sort_tiles(coarse: &mut CoarseMesh, scene: &Scene) {
+    let num_tiled = coarse.tiles.len();
+    let drawn = Drawn { triangles: &coarse.triangles, num_tiled };
+    let order = drawn.order(scene, |_| true).triangles;
+    let tiles: Vec<usize> = order.iter().map(|id| id.index()).filter(|&tile| tile < num_tiled).collect();
+    let triangles: Vec<Triangle> = tiles.iter().map(|&tile| coarse.triangles[tile]).collect();
+    coarse.triangles[..num_tiled].copy_from_slice(&triangles);
+    coarse.tiles = tiles.iter().map(|&tile| coarse.tiles[tile]).collect();
 }
 
 impl Mesh {

@@ -43,6 +43,7 @@ pub(super) struct CoarseMesh {
 }
 
 /// Where in the texture the light of a triangle is.
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Tile {
     /// The texel of its first corner.
     pub origin: UVec2,
