@@ -29,11 +29,8 @@ override IS_UNLIT: bool = false;
 // Metals reflect their base colour diffusely.
 override METAL_AS_DIFFUSE: bool = true;
 
-// The light of the vertices lies in tiles (shaders/fill_tiles.wgsl). In place of irradiance they hold where: their own
-// coordinates in the tile, between 0 and 1, its first texel and its width, both in shares of the texture.
-override IS_TILED: bool = false;
-
 @group(1) @binding(0) var<storage, read> metered_exposure: f32;
+// Light of the vertices, where it lies in tiles (shaders/fill_tiles.wgsl).
 @group(1) @binding(1) var tiles: texture_2d<f32>;
 @group(1) @binding(2) var between_texels: sampler;
 
@@ -42,7 +39,8 @@ struct Vertex {
     @location(1) normal: vec3f,
     @location(2) uv: vec4f,
     @location(3) colour: vec4f,
-    // Irradiance, summed over the light groups, or a place in a tile.
+    // Irradiance, summed over the light groups. Where light lies in tiles: where, as its own coordinates in the tile, between 0
+    // and 1, its first texel and its width, both in shares of the texture.
     @location(4) direct: vec3f,
     @location(5) indirect: vec3f,
 }
@@ -51,25 +49,33 @@ struct Vertex {
 fn surface_varying(in: Vertex) -> Varying {
     var out: Varying;
     out.position = frame.projection_from_world * vec4f(in.position, 1.0);
-    out.normal = in.normal;
     out.colour = material.base_colour * in.colour;
     out.base_and_metallic_uv = vec4f(coordinate(material.base_slot, in.uv), coordinate(material.metallic_slot, in.uv));
     let tile_width = select(0.0, in.indirect.y, IS_TILED);
     out.emissive_uv_and_scales = vec4f(coordinate(material.emissive_slot, in.uv), target_scale(), tile_width);
-    // Light is scaled by pre-exposure, other things are as they are.
-    let scale = select(1.0, frame.pre_exposure, shows_light());
-    if !IS_TILED {
-        // Surfaces that blend stay with the stored light.
-        let direct = select(frame.direct, 0.0, LIT_BY_LIGHTS && ALPHA_MODE != ALPHA_BLEND);
-        out.white_radiance = scale * (frame.ambient + (direct * in.direct + frame.indirect * in.indirect) / PI);
-    }
-    out.emission_and_metallic = vec4f(scale * emission_factor(), material.metallic);
+    out.light = handed_light(in);
+    out.emission_and_metallic = vec4f(light_scale() * emission_factor(), material.metallic);
     return out;
 }
 
-// Coordinates in a tile and its first texel. Not at the centroid: of that lavapipe scales even what is constant.
-fn tile_place(in: Vertex) -> vec4f {
-    return vec4f(in.direct, in.indirect.x);
+// The radiance of white paint, its place in a tile, or instead of light the normal: no location is without use, since software
+// drivers write them all.
+fn handed_light(in: Vertex) -> vec4f {
+    if SHADING == SHADING_NORMALS {
+        return vec4f(in.normal, 0.0);
+    }
+    if IS_TILED {
+        return vec4f(in.direct, in.indirect.x);
+    }
+    // Surfaces that blend stay with the stored light.
+    let direct = select(frame.direct, 0.0, LIT_BY_LIGHTS && ALPHA_MODE != ALPHA_BLEND);
+    let irradiance = direct * in.direct + frame.indirect * in.indirect;
+    return vec4f(light_scale() * (frame.ambient + irradiance / PI), 0.0);
+}
+
+// Light is scaled by pre-exposure, other things are as they are.
+fn light_scale() -> f32 {
+    return select(1.0, frame.pre_exposure, shows_light());
 }
 
 fn shows_light() -> bool {
@@ -111,13 +117,12 @@ fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> Shown {
 // What white paint shows in the light of the vertices.
 fn stored_radiance(in: Varying) -> vec3f {
     if !IS_TILED {
-        return max(in.white_radiance, vec3f(0.0));
+        return max(in.light.rgb, vec3f(0.0));
     }
     // Beside the triangle, where the middle of a pixel on its edge may be, lies another tile.
-    let handed = handed_place(in);
-    let clamped = clamp(handed.xy, vec2f(0.0), vec2f(1.0));
+    let clamped = clamp(in.light.xy, vec2f(0.0), vec2f(1.0));
     let place = clamped - 0.5 * max(clamped.x + clamped.y - 1.0, 0.0);
-    let texel = handed.zw + in.emissive_uv_and_scales.w * place;
+    let texel = in.light.zw + in.emissive_uv_and_scales.w * place;
     let radiance = max(textureSampleLevel(tiles, between_texels, texel, 0.0).rgb, vec3f(0.0));
     return select(radiance / frame.pre_exposure, radiance, shows_light());
 }
@@ -150,7 +155,7 @@ fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
             return reflectance;
         }
         case SHADING_NORMALS: {
-            return 0.5 + 0.5 * normalize(select(-in.normal, in.normal, is_front));
+            return 0.5 + 0.5 * normalize(select(-in.light.xyz, in.light.xyz, is_front));
         }
         default: {
             return select(emission + reflectance * light, frame.pre_exposure * base, IS_UNLIT);

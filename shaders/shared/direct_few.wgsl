@@ -29,11 +29,13 @@ override ONE_SAMPLE: bool = false;
 fn vertex(in: Vertex) -> Varying {
     var out = surface_varying(in);
     out.point = in.position;
-    let tile = tile_place(in);
-    out.middle_0 = vec4f(place_in_light_space(lights[0], in.position), tile.x);
-    out.normal_0 = vec4f(in_light_space(lights[0], in.normal), tile.y);
-    out.middle_1 = vec4f(place_in_light_space(lights[1], in.position), tile.z);
-    out.normal_1 = vec4f(in_light_space(lights[1], in.normal), tile.w);
+    out.normal = in.normal;
+    out.middle_0 = place_in_light_space(lights[0], in.position);
+    out.normal_0 = in_light_space(lights[0], in.normal);
+    if NUM_LIGHTS > 1u {
+        out.middle_1 = place_in_light_space(lights[1], in.position);
+        out.normal_1 = in_light_space(lights[1], in.normal);
+    }
     if NUM_LIGHTS > 2u {
         out.middle_2 = place_in_light_space(lights[2], in.position);
         out.normal_2 = in_light_space(lights[2], in.normal);
@@ -47,9 +49,9 @@ fn vertex(in: Vertex) -> Varying {
 
 @fragment
 fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> Shown {
-    var direct = received(0u, KIND_0, map_0, overview_0, receiver(0u, KIND_0, in, is_front, in.middle_0.xyz, in.normal_0.xyz));
+    var direct = received(0u, KIND_0, map_0, overview_0, receiver(0u, KIND_0, in, is_front, in.middle_0, in.normal_0));
     if NUM_LIGHTS > 1u {
-        direct += received(1u, KIND_1, map_1, overview_1, receiver(1u, KIND_1, in, is_front, in.middle_1.xyz, in.normal_1.xyz));
+        direct += received(1u, KIND_1, map_1, overview_1, receiver(1u, KIND_1, in, is_front, in.middle_1, in.normal_1));
     }
     if NUM_LIGHTS > 2u {
         direct += received(2u, KIND_2, map_2, overview_2, receiver(2u, KIND_2, in, is_front, in.middle_2, in.normal_2));

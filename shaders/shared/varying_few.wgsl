@@ -1,5 +1,7 @@
 // Surface pass: what vertices hand to pixels that add the direct light of a few light samples.
 
+const IS_TILED: bool = false;
+
 struct Varying {
     @builtin(position) @invariant position: vec4f,
     @location(0) @interpolate(perspective, centroid) normal: vec3f,
@@ -8,23 +10,18 @@ struct Varying {
     @location(2) base_and_metallic_uv: vec4f,
     @location(3) emissive_uv_and_scales: vec4f,
     // Radiance of an ideal white surface; centroid, so that it is never extrapolated beyond the triangle.
-    @location(4) @interpolate(perspective, centroid) white_radiance: vec3f,
+    @location(4) @interpolate(perspective, centroid) light: vec4f,
     // Of the material where it has no textures.
     @location(5) @interpolate(flat) emission_and_metallic: vec4f,
     // Metres, world space.
     @location(6) @interpolate(perspective, centroid) point: vec3f,
-    // As in shared/lit_point.wgsl, in the space of each light. There are no more locations; the place in a tile is handed over
-    // in the fourth components.
-    @location(7) middle_0: vec4f,
-    @location(8) normal_0: vec4f,
-    @location(9) middle_1: vec4f,
-    @location(10) normal_1: vec4f,
+    // As in shared/lit_point.wgsl, in the space of each light.
+    @location(7) middle_0: vec3f,
+    @location(8) normal_0: vec3f,
+    @location(9) middle_1: vec3f,
+    @location(10) normal_1: vec3f,
     @location(11) middle_2: vec3f,
     @location(12) normal_2: vec3f,
     @location(13) middle_3: vec3f,
     @location(14) normal_3: vec3f,
-}
-
-fn handed_place(in: Varying) -> vec4f {
-    return vec4f(in.middle_0.w, in.normal_0.w, in.middle_1.w, in.normal_1.w);
 }

@@ -32,6 +32,18 @@ pub const SURFACE: Shader = shader!(
     "surface.wgsl",
     "shared/direct_stored.wgsl"
 );
+/// Surface pass with the light of the vertices in tiles.
+pub const SURFACE_TILES: Shader = shader!(
+    "surface, tiles",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "shared/varying_tiles.wgsl",
+    "surface.wgsl",
+    "shared/direct_stored.wgsl"
+);
 /// Surface pass with direct irradiance from a texture with one sample a pixel.
 pub const SURFACE_LIT: Shader = shader!(
     "surface lit",
@@ -69,6 +81,22 @@ pub const SURFACE_FEW_LIGHTS: Shader = shader!(
     "shared/shadow_map.wgsl",
     "shared/map_lookup.wgsl",
     "shared/varying_few.wgsl",
+    "surface.wgsl",
+    "shared/direct_few.wgsl"
+);
+/// The same with the light of the vertices in tiles.
+pub const SURFACE_FEW_LIGHTS_TILES: Shader = shader!(
+    "surface few lights, tiles",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "shared/facet.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/shadow_map.wgsl",
+    "shared/map_lookup.wgsl",
+    "shared/varying_few_tiles.wgsl",
     "surface.wgsl",
     "shared/direct_few.wgsl"
 );
@@ -176,9 +204,11 @@ pub const TONEMAP_SAMPLES: Shader = shader!(
 pub const ALL: &[&Shader] = &[
     &ITEM_BUFFER,
     &SURFACE,
+    &SURFACE_TILES,
     &SURFACE_LIT,
     &SURFACE_LIT_SAMPLES,
     &SURFACE_FEW_LIGHTS,
+    &SURFACE_FEW_LIGHTS_TILES,
     &WEIGH_GROUPS,
     &FILL_TILES,
     &DEPTH_PREPASS,

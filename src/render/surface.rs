@@ -20,6 +20,8 @@ pub struct SurfacePass {
     source: DirectSource,
     layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
+    /// For light in tiles, where there may be such.
+    tiled_module: Option<wgpu::ShaderModule>,
     samples: u32,
     /// Made when they are first needed.
     pipelines: HashMap<(Variant, Option<Kinds>), wgpu::RenderPipeline>,
@@ -59,7 +61,15 @@ impl DirectSource {
 
     /// Surfaces are drawn as their coarse mesh has them: where no texture tells the light of pixels that the elements cover.
     pub fn shows_tiles(self) -> bool {
-        matches!(self, DirectSource::Stored | DirectSource::Few)
+        self.tiled_shader().is_some()
+    }
+
+    fn tiled_shader(self) -> Option<&'static shaders::Shader> {
+        match self {
+            DirectSource::Stored => Some(&shaders::SURFACE_TILES),
+            DirectSource::Few => Some(&shaders::SURFACE_FEW_LIGHTS_TILES),
+            DirectSource::Pixels | DirectSource::Samples => None,
+        }
     }
 
     fn shader(self) -> &'static shaders::Shader {
@@ -139,6 +149,7 @@ impl SurfacePass {
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32, source: DirectSource) -> Self {
         let direct_layout = source.layout(gpu);
         let module = source.shader().module(&gpu.device);
+        let tiled_module = source.tiled_shader().map(|shader| shader.module(&gpu.device));
         let material = material_layout(gpu);
         let light_layout = light_layout(gpu);
         let mut layouts = vec![Some(frame_layout), Some(&light_layout), Some(&material)];
@@ -156,7 +167,18 @@ impl SurfacePass {
         });
         let no_tiles = no_tiles(gpu);
         let pipelines = HashMap::new();
-        Self { source, layout, module, samples, pipelines, light_layout, sampler, no_tiles, direct_layout }
+        Self {
+            source,
+            layout,
+            module,
+            tiled_module,
+            samples,
+            pipelines,
+            light_layout,
+            sampler,
+            no_tiles,
+            direct_layout,
+        }
     }
 
     /// Clears the targets and draws the scene into them, its vertices in the light of `stored`. What is displayed at once without
@@ -245,6 +267,7 @@ impl SurfacePass {
             constants.push(("ONE_SAMPLE", f64::from(u8::from(self.samples == 1))));
         }
         constants.push(("LIT_BY_LIGHTS", f64::from(u8::from(self.source != DirectSource::Stored))));
-        variant.pipeline(gpu, &self.layout, &self.module, self.samples, constants)
+        let module = self.tiled_module.as_ref().filter(|_| variant.is_tiled).unwrap_or(&self.module);
+        variant.pipeline(gpu, &self.layout, module, self.samples, constants)
     }
 }

@@ -54,7 +54,8 @@ pub struct Variant {
     alpha: Alpha,
     has_textures: bool,
     is_unlit: bool,
-    is_tiled: bool,
+    /// Another module.
+    pub is_tiled: bool,
     culls: bool,
     has_dark_back: bool,
     metal_as_diffuse: bool,
@@ -120,7 +121,6 @@ impl Variant {
             ("SHADING", f64::from(self.shading.number())),
             ("HAS_TEXTURES", switch(self.has_textures)),
             ("IS_UNLIT", switch(self.is_unlit)),
-            ("IS_TILED", switch(self.is_tiled)),
             ("HAS_DARK_BACK", switch(self.has_dark_back)),
             ("METAL_AS_DIFFUSE", switch(self.metal_as_diffuse)),
             ("ALPHA_MODE", alpha.shader_mode),
