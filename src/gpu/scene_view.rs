@@ -49,6 +49,22 @@ impl SceneBuffers {
         self.sharing_buffers(self.indices.clone(), batches, Vec::new(), tiled)
     }
 
+    /// Indices and batches of the coarse mesh where there is one, else of the elements.
+    #[must_use]
+    pub fn coarsest(&self) -> (&wgpu::Buffer, &[Batch]) {
+        match &self.tiled {
+            Some(tiled) => (&tiled.indices, &tiled.batches),
+            None => (&self.indices, &self.batches),
+        }
+    }
+
+    /// The vertices that a batch indexes.
+    #[must_use]
+    pub fn vertices_of(&self, batch: &Batch) -> &wgpu::Buffer {
+        let tiled = self.tiled.as_ref().filter(|_| batch.is_tiled);
+        tiled.map_or(&self.vertices, |tiled| &tiled.vertices)
+    }
+
     /// Other triangles of the same vertices.
     pub(super) fn sharing_buffers(
         &self,

@@ -8,7 +8,7 @@ use wgpu::util::DeviceExt;
 
 use super::frame_uniform::{frame_bind_group, frame_layout};
 use super::{Look, View};
-use crate::gpu::scene_buffers::{Faces, GpuVertex};
+use crate::gpu::scene_buffers::GpuVertex;
 use crate::gpu::targets::DEPTH_FORMAT;
 use crate::gpu::{Gpu, SceneBuffers, shaders};
 use crate::scene::AlphaMode;
@@ -103,16 +103,17 @@ impl OverlayPass {
             _ => (depth_target(gpu, size), size),
         };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
+        let seen = scene.in_view(gpu, &view.outlook(look));
         let mut pass = begin(encoder, target, &depth.0);
         pass.set_bind_group(0, &frame, &[]);
         // What hides marks.
-        if !scene.batches.is_empty() {
-            pass.set_vertex_buffer(0, scene.vertices.slice(..));
-            pass.set_index_buffer(scene.indices.slice(..), wgpu::IndexFormat::Uint32);
+        let (indices, batches) = seen.coarsest();
+        if !batches.is_empty() {
+            pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
         }
-        for batch in scene.batches.iter().filter(|batch| batch.alpha_mode != AlphaMode::Blend) {
-            let culls = batch.faces == Faces::FrontOfTwins || (batch.faces == Faces::Front && look.cull_back);
-            pass.set_pipeline(if culls { &self.culled } else { &self.two_faced });
+        for batch in batches.iter().filter(|batch| batch.alpha_mode != AlphaMode::Blend) {
+            pass.set_pipeline(if batch.faces.are_culled(look.cull_back) { &self.culled } else { &self.two_faced });
+            pass.set_vertex_buffer(0, seen.vertices_of(batch).slice(..));
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);
         }
         // Tinted faces, and lines on top of them.

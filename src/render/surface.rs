@@ -205,10 +205,7 @@ impl SurfacePass {
             self.pipelines.clear();
         }
         let tiled = scene.tiled.as_ref().filter(|_| self.source.shows_tiles());
-        let (indices, batches) = match tiled {
-            Some(tiled) => (&tiled.indices, &tiled.batches),
-            None => (&scene.indices, &scene.batches),
-        };
+        let (indices, batches) = if tiled.is_some() { scene.coarsest() } else { (&scene.indices, &scene.batches[..]) };
         for needed in batches.iter().map(variant) {
             if !self.pipelines.contains_key(&needed) {
                 self.pipelines.insert(needed, self.pipeline(gpu, needed));
@@ -235,12 +232,9 @@ impl SurfacePass {
             pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
         }
         for batch in batches {
-            let (vertices, stored) = match tiled.filter(|_| batch.is_tiled) {
-                Some(tiled) => (&tiled.vertices, &tiled.places),
-                None => (&scene.vertices, stored),
-            };
-            pass.set_vertex_buffer(0, vertices.slice(..));
-            pass.set_vertex_buffer(1, stored.slice(..));
+            let light = tiled.filter(|_| batch.is_tiled).map_or(stored, |tiled| &tiled.places);
+            pass.set_vertex_buffer(0, scene.vertices_of(batch).slice(..));
+            pass.set_vertex_buffer(1, light.slice(..));
             pass.set_pipeline(&self.pipelines[&variant(batch)]);
             pass.set_bind_group(2, &scene.materials[batch.material.index()], &[]);
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);

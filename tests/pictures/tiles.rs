@@ -81,6 +81,23 @@ fn tiles_look_like_the_elements_that_they_are_of() {
 }
 
 #[test]
+fn an_instance_that_is_hidden_has_no_tiles_in_the_picture() {
+    let Some(gpu) = gpu() else { return };
+    let baked = waving();
+    let camera = &baked.scene.cameras[0];
+    let lit = Look { exposure: Exposure::Ev(-1.0), ..Look::default() };
+    let all = SceneBuffers::new(gpu, &baked);
+    let hidden = baked.scene.triangles[baked.scene.triangles.len() - 1].instance;
+    let [tiles, mut elements] = [(); 2].map(|()| all.part(gpu, &baked.scene, |triangle| triangle.instance != hidden));
+    elements.tiled = None;
+    let [whole, tiles, elements] = [&all, &tiles, &elements]
+        .map(|buffers| picture_in_light(gpu, buffers, None, camera, SIZE, &lit, 1).expect("a picture").display);
+    assert!(difference(&tiles, &whole).1 > 0.02, "something is gone");
+    let (largest, share) = difference(&tiles, &elements);
+    assert!(share < 0.003, "{share} of the pixels differ, by up to {largest}");
+}
+
+#[test]
 fn tiles_follow_light_that_is_written_anew_or_weighed_otherwise() {
     let Some(gpu) = gpu() else { return };
     let mut baked = waving();
