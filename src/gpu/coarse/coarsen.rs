@@ -4,8 +4,7 @@
 //! too: then all of them are put together at once, on both sides of the edge. What was conforming stays so, whatever else
 //! touches the edge. The shortest edges go first.
 //!
-//! Source: Kossaczky 1994, "A recursive approach to local mesh refinement in two and three dimensions" (coarsening of
-//! bisected meshes, vertex by vertex).
+//! Source: Chen, Zhang 2010, "A coarsening algorithm on adaptive grids by newest vertex bisection and its applications".
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -19,7 +18,7 @@ use crate::scene::Scene;
 
 /// Largest power of two that the sides of a tile are cut into.
 pub(super) const MAX_LEVEL: u32 = 7;
-/// Power of two that corners of nodes are apart while levels are found; halves deeper than that are too fine for any tile.
+/// Power of two that corners of a node are apart while its level is found; what is finer asks for too large a tile anyway.
 const FINEST: u32 = 20;
 
 /// A node that is drawn as one triangle.

@@ -64,6 +64,7 @@ impl CoarseMesh {
     pub fn new(scene: &Scene, max_side: u32) -> Option<Self> {
         let forest = Forest::new(scene);
         let num_elements = scene.triangles.len();
+        // Most have far fewer texels than the most.
         let per_element = (2 * u64::from(MAX_SIDE).pow(2) / num_elements.max(1) as u64).min(MAX_TEXELS_PER_ELEMENT);
         let mut wholes = coarsen(scene, &forest, per_element);
         if wholes.len() as f32 >= WORTH_WHILE * num_elements as f32 {
