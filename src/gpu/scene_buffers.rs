@@ -15,6 +15,7 @@ use super::material_buffers::material_bind_groups;
 use super::scene_order::{Order, index_buffer, order};
 use super::scene_view::Chunk;
 use super::tiled_mesh::TiledMesh;
+use super::tiles::Tiles;
 use super::vertex_light::LightBuffer;
 use super::vertex_order::VertexOrder;
 use crate::baked::{BakedScene, VertexLight};
@@ -121,8 +122,10 @@ impl SceneBuffers {
     pub fn new(gpu: &Gpu, baked: &BakedScene) -> Self {
         let scene = &baked.scene;
         let num_groups = scene.light_groups.len().max(baked.light.groups.len());
-        let max_side = gpu.device.limits().max_texture_dimension_2d;
-        let (order, coarse) = rayon::join(|| order(scene, |_| true), || CoarseMesh::new(scene, max_side));
+        let limits = gpu.device.limits();
+        let coarse = || CoarseMesh::new(scene, limits.max_texture_dimension_2d);
+        let (order, coarse) = rayon::join(|| order(scene, |_| true), coarse);
+        let coarse = coarse.filter(|coarse| Tiles::can_be_bound(coarse, &limits));
         let (Order { batches, chunks, .. }, indices) = order;
         let vertex_order = VertexOrder::new(&indices, scene.vertices.len());
         let buffers = Self {

@@ -53,6 +53,12 @@ fn packed(texel: UVec2) -> u32 {
 }
 
 impl Tiles {
+    /// A device with these limits can bind what they are filled from.
+    pub(super) fn can_be_bound(coarse: &CoarseMesh, limits: &wgpu::Limits) -> bool {
+        let sizes = [size_of_val(&coarse.element_of[..]), size_of::<TileElement>() * coarse.elements.len()];
+        sizes.into_iter().all(|size| size as u64 <= limits.max_storage_buffer_binding_size)
+    }
+
     /// Uploads all but the light.
     pub(super) fn new(gpu: &Gpu, coarse: &CoarseMesh, order: &VertexOrder, num_vertices: usize) -> Self {
         let element = |vertices: [u32; 3], corners: [UVec2; 3]| TileElement {
@@ -97,6 +103,20 @@ mod tests {
     use super::*;
     use crate::gpu::coarse::NOTHING;
     use crate::gpu::shaders::{FILL_TILES, constant, struct_layout};
+
+    #[test]
+    fn tiles_that_a_device_cannot_bind_are_not_made() {
+        let coarse = |num_texels| CoarseMesh {
+            triangles: Vec::new(),
+            tiles: Vec::new(),
+            side: 0,
+            elements: Vec::new(),
+            element_of: vec![NOTHING; num_texels],
+            beyond: Vec::new(),
+        };
+        let limits = wgpu::Limits { max_storage_buffer_binding_size: 400, ..wgpu::Limits::default() };
+        assert_eq!([100, 101].map(|num_texels| Tiles::can_be_bound(&coarse(num_texels), &limits)), [true, false]);
+    }
 
     #[test]
     fn the_shader_reads_what_is_written() {
