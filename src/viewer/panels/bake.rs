@@ -14,7 +14,8 @@ const CURVE_HEIGHT: f32 = 56.0;
 /// Least share of light that the curve shows.
 const CURVE_FLOOR: f32 = 1e-4;
 
-pub fn bake_ui(ui: &mut Ui, quality: &mut Quality, facts: &Facts<'_>, commands: &mut Vec<Command>) {
+/// `is_dimmed`: what is seen has other light groups than a saved bake.
+pub fn bake_ui(ui: &mut Ui, quality: &mut Quality, is_dimmed: bool, facts: &Facts<'_>, commands: &mut Vec<Command>) {
     match &facts.light {
         &LightState::Working { stage, done, elapsed, is_cancelled } => {
             working_ui(ui, stage, done, is_cancelled, commands);
@@ -48,6 +49,9 @@ pub fn bake_ui(ui: &mut Ui, quality: &mut Quality, facts: &Facts<'_>, commands: 
         "Writes the light as a standard .glb that opens without a bake",
     ) {
         commands.push(Command::SaveBake);
+    }
+    if is_dimmed && facts.is_solved {
+        hint(ui, "Saves every light group as it was baked, whatever the dials say.");
     }
 }
 

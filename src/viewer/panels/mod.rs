@@ -270,7 +270,8 @@ impl Panels {
 
     fn solution_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, commands: &mut Vec<Command>) {
         let sections = &mut self.memory.sections;
-        section(ui, sections, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, facts, commands));
+        let is_dimmed = self.light.groups.iter().any(|group| !group.is_as_baked());
+        section(ui, sections, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, is_dimmed, facts, commands));
         section(ui, sections, "Time machine", true, |ui| replay::replay_ui(ui, &mut self.replay, facts, commands));
         section(ui, sections, "Advice", true, |ui| advice::advice_ui(ui, facts.advice, self.found, commands));
     }

@@ -259,6 +259,19 @@ fn what_needs_light_waits_for_it() {
 }
 
 #[test]
+fn saving_says_that_dials_are_not_saved() {
+    let mut facts = facts(Some(cornell()), LightState::Stored);
+    facts.is_solved = true;
+    let mut desk = desk(facts);
+    click(&mut desk, "Solution");
+    let told = "Saves every light group as it was baked, whatever the dials say.";
+    assert!(desk.query_by_label(told).is_none());
+    desk.state_mut().panels.light.groups[0].intensity = 0.5;
+    desk.run();
+    assert!(desk.query_by_label(told).is_some());
+}
+
+#[test]
 fn trouble_is_shown_until_it_is_closed() {
     let mut desk = desk(facts(None, LightState::Nothing));
     let trouble = Trouble { title: "This file cannot be opened".into(), text: "no such file".into() };
