@@ -138,6 +138,10 @@ impl Canvas {
         detail: Detail,
         batch: Option<Batch>,
     ) {
+        if sight.rival.is_none() {
+            // What is compared with no longer would keep a scene and the maps of its shadows.
+            (self.rival, self.differ) = (None, None);
+        }
         let last = self.picture.take().filter(|last| last.sight.size == sight.size);
         let (texture_of_last, beside_of_last) = last.map_or((None, None), |last| (Some(last.texture), last.beside));
         let format = self.format;
