@@ -5,6 +5,7 @@ mod support;
 
 mod assets;
 mod builtin;
+mod comparison;
 mod floors;
 mod form_factors;
 mod lightmap;

@@ -10,7 +10,7 @@ use hemicube::radiosity::reconstruct::dark_scene;
 use hemicube::render::{
     Exposure, Look, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, View, picture_in_light,
 };
-use hemicube::scene::{Camera, builtin};
+use hemicube::scene::{Camera, Projection, builtin};
 use wgpu::TextureFormat;
 
 use crate::support::device::gpu;
@@ -62,6 +62,7 @@ fn tiles_look_like_the_elements_that_they_are_of() {
     let map = ShadowSettings::new(ShadowTechnique::Map);
     let camera = &baked.scene.cameras[0];
     let beside = Camera { position: camera.position + Vec3::new(7.0, 0.0, 2.0), ..camera.clone() };
+    let flat = Camera { projection: Projection::Orthographic { half_height: 2.0 }, ..camera.clone() };
     for (name, look, camera, samples) in [
         ("lit", lit.clone(), camera, 1),
         ("lit, several samples", lit.clone(), camera, 4),
@@ -71,6 +72,7 @@ fn tiles_look_like_the_elements_that_they_are_of() {
         ("irradiance", Look { shading: Shading::IrradianceOnly, ..lit.clone() }, camera, 1),
         ("albedo", Look { shading: Shading::Albedo, ..lit.clone() }, camera, 1),
         ("shadow maps", Look { shadows: Some(map.clone()), ..lit.clone() }, camera, 1),
+        ("orthographic", lit.clone(), &flat, 1),
         ("from outside", lit.clone(), &beside, 1),
         ("backs from outside", Look { cull_back: false, ..lit.clone() }, &beside, 1),
     ] {

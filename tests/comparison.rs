@@ -1,0 +1,47 @@
+//! Shadows that the viewer compares, and what of them is kept afterwards.
+
+use std::sync::Arc;
+
+use hemicube::baked::BakedScene;
+use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::{Look, ShadowScene, ShadowSettings, ShadowTechnique, View};
+use hemicube::scene::builtin;
+use hemicube::viewer::canvas::Canvas;
+use hemicube::viewer::sight::{Comparison, Detail, Rival, Sight};
+use wgpu::{CommandEncoderDescriptor, TextureFormat};
+
+use crate::support::device::gpu;
+
+fn sight(gpu: &Gpu, comparison: Option<Comparison>) -> Sight {
+    let dark = BakedScene::dark(builtin::cornell());
+    let settings = ShadowSettings::new(ShadowTechnique::Map);
+    Sight {
+        view: View::from_camera(&dark.scene.cameras[0], 1.0),
+        scene: Arc::new(SceneBuffers::new(gpu, &dark)),
+        shadows: Arc::new(ShadowScene::new(gpu, Arc::new(dark.scene))),
+        light: 0,
+        look: Look { shadows: Some(settings.clone()), ..Look::default() },
+        rival: comparison.map(|comparison| Rival { settings, comparison }),
+        overlay: None,
+        size: [32; 2],
+    }
+}
+
+#[test]
+fn a_scene_whose_shadows_were_compared_is_let_go_when_another_is_shown() {
+    let Some(gpu) = gpu() else { return };
+    let mut canvas = Canvas::new(gpu, TextureFormat::Rgba8Unorm);
+    let mut show = |sight: Sight| {
+        let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+        canvas.draw(gpu, &mut encoder, sight, Detail::Plain, None);
+        gpu.queue.submit([encoder.finish()]);
+    };
+    for comparison in [Comparison::Split, Comparison::Difference] {
+        let compared = sight(gpu, Some(comparison));
+        let shadows = Arc::downgrade(&compared.shadows);
+        show(compared);
+        assert!(shadows.upgrade().is_some(), "what is shown is held");
+        show(sight(gpu, None));
+        assert!(shadows.upgrade().is_none(), "{comparison:?} holds its scene");
+    }
+}
