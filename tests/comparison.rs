@@ -1,4 +1,4 @@
-//! Shadows that the viewer compares, and what of them is kept afterwards.
+//! Shadows that the viewer shows and compares, and what of them is kept afterwards.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use hemicube::render::{Look, ShadowScene, ShadowSettings, ShadowTechnique, View}
 use hemicube::scene::builtin;
 use hemicube::viewer::canvas::Canvas;
 use hemicube::viewer::sight::{Comparison, Detail, Rival, Sight};
-use wgpu::{CommandEncoderDescriptor, TextureFormat};
+use wgpu::{CommandEncoderDescriptor, PollType, TextureFormat};
 
 use crate::support::device::gpu;
 
@@ -44,4 +44,33 @@ fn a_scene_whose_shadows_were_compared_is_let_go_when_another_is_shown() {
         show(sight(gpu, None));
         assert!(shadows.upgrade().is_none(), "{comparison:?} holds its scene");
     }
+}
+
+/// Textures of the device that live shadows gather light in, of this many pixels.
+fn num_gathering(gpu: &Gpu, num_pixels: u64) -> usize {
+    // Half or whole floats, with what rows are filled up by.
+    let is_one = |bytes: u64| {
+        [8, 16].iter().any(|pixel| bytes.checked_sub(pixel * num_pixels).is_some_and(|rest| rest < num_pixels / 4))
+    };
+    let report = gpu.device.generate_allocator_report().expect("the device counts what it holds");
+    report.allocations.iter().filter(|held| held.name == "direct irradiance" && is_one(held.size)).count()
+}
+
+#[test]
+fn shadows_that_are_switched_off_give_their_textures_back() {
+    let Some(gpu) = gpu() else { return };
+    let mut canvas = Canvas::new(gpu, TextureFormat::Rgba8Unorm);
+    let size = [1920, 1200];
+    let mut num_gathering_with = |technique| {
+        let mut shown = sight(gpu, None);
+        shown.size = size;
+        shown.look.shadows = technique;
+        let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
+        canvas.draw(gpu, &mut encoder, shown, Detail::Plain, None);
+        gpu.queue.submit([encoder.finish()]);
+        gpu.device.poll(PollType::wait_indefinitely()).expect("the device draws");
+        num_gathering(gpu, u64::from(size[0]) * u64::from(size[1]))
+    };
+    assert!(num_gathering_with(Some(ShadowSettings::new(ShadowTechnique::VolumeDepthPass))) > 0);
+    assert_eq!(num_gathering_with(None), 0);
 }

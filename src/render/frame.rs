@@ -161,6 +161,9 @@ impl Renderer {
             let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
             live.draw(gpu, encoder, size, subject, settings)
         });
+        if live.is_none() {
+            self.live.iter_mut().for_each(RealTimeLight::release_targets);
+        }
         // Light from every visible point towards the eye: displayed, or several samples a pixel and their mean.
         let is_metered = look.fixed_exposure().is_none() && self.followed.is_none();
         let is_last = self.can_display_at_once(seen, look);

@@ -61,6 +61,11 @@ impl RaytracedLight {
         }
     }
 
+    /// Gives back the textures that visible points are found in, until a picture needs them again.
+    pub fn release_targets(&mut self) {
+        self.targets = None;
+    }
+
     /// Irradiance times pre-exposure, the fourth channel counting the samples seen, added to that of the last picture where
     /// it `goes_on`; black where the device was lost, which the next read-back tells.
     pub fn draw(

@@ -129,6 +129,12 @@ impl RealTimeLight {
         self.volumes.forget();
     }
 
+    /// Gives back the textures that direct light is gathered in, until a picture needs them again.
+    pub fn release_targets(&mut self) {
+        self.targets = None;
+        self.raytraced.release_targets();
+    }
+
     /// Records the direct light of a picture of `size` pixels.
     pub fn draw(
         &mut self,
