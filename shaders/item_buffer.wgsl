@@ -3,7 +3,7 @@
 // The input triangles are drawn, not the elements: the fragment finds its element by descending the triangle's bisection
 // tree with its barycentric position, so the cost depends on input triangles and pixels alone.
 //
-// Item: 0 nothing, 1 the back of a single-sided surface, else element id + 2.
+// Item: 0 nothing, else element id + 1; the highest bit tells the black back of a single-sided surface.
 
 struct Vertex {
     @builtin(vertex_index) index: u32,
@@ -43,9 +43,9 @@ struct Cutout {
 // The scene has surfaces that let light through.
 override HAS_CUTOUTS: bool = false;
 
-const NOTHING: u32 = 0u;
-const BACK: u32 = 1u;
-const FIRST_ELEMENT: u32 = 2u;
+const FIRST_ELEMENT: u32 = 1u;
+const BLACK_BACK: u32 = 0x80000000u;
+
 struct Varyings {
     @builtin(position) position: vec4<f32>,
     // Weights of the first two corners. Few locations: software drivers set each up for every triangle.
@@ -71,10 +71,8 @@ fn fragment(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0)
         discard;
     }
     let back_offset = in.ids.z;
-    if !is_front && back_offset == 0u {
-        return BACK;
-    }
-    return FIRST_ELEMENT + element_at(in.ids.y, barycentric) + select(back_offset, 0u, is_front);
+    let side = select(select(back_offset, BLACK_BACK, back_offset == 0u), 0u, is_front);
+    return side + FIRST_ELEMENT + element_at(in.ids.y, barycentric);
 }
 
 // The element that holds a barycentric position; see Node in src/patch/tree.rs.

@@ -8,6 +8,7 @@ mod builtin;
 mod comparison;
 mod floors;
 mod form_factors;
+mod gathering;
 mod lightmap;
 mod loader;
 mod meshing;

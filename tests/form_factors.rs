@@ -41,7 +41,7 @@ fn assert_whole(rows: &[Row]) {
     for row in rows {
         let sum: f32 = row.entries.iter().map(|entry| entry.factor).sum();
         assert!(row.entries.iter().all(|entry| entry.factor > 0.0));
-        assert!((sum + row.back + row.sky - 1.0).abs() < 1e-4, "{sum} + {} + {}", row.back, row.sky);
+        assert!((sum + row.back() + row.sky - 1.0).abs() < 1e-4, "{sum} + {} + {}", row.back(), row.sky);
         assert!(row.sky == 0.0, "sky {}", row.sky);
     }
 }

@@ -52,9 +52,9 @@ impl<'a> Hemispheres<'a> {
     }
 
     fn see(&self, viewpoint: &Viewpoint, row: &mut Row) {
-        row.entries.clear();
+        row.clear();
         let share = 1.0 / self.table.len() as f32;
-        let (mut num_back, mut num_sky) = (0, 0);
+        let mut num_sky = 0;
         let (tangent, bitangent) = tangent_frame(viewpoint.normal);
         let (sin, cos) = (unit_float(hash(viewpoint.seed)) * TAU).sin_cos();
         let (x, y) = (tangent * cos + bitangent * sin, bitangent * cos - tangent * sin);
@@ -68,27 +68,23 @@ impl<'a> Hemispheres<'a> {
             let solid_from = |triangle: TriangleId| 1.0 - unit_float(hash(seed ^ hash(triangle.0)));
             match self.tracer.nearest_solid(viewpoint.position, direction, f32::INFINITY, solid_from) {
                 None => num_sky += 1,
-                Some(hit) => match self.entry(&hit, share) {
-                    None => num_back += 1,
-                    Some(entry) => add(&mut row.entries, entry),
-                },
+                Some(hit) => self.enter(row, &hit, share),
             }
         }
-        row.back = num_back as f32 * share;
         row.sky = num_sky as f32 * share;
     }
 
-    /// The element that was hit; none on the back of a single-sided surface.
-    fn entry(&self, hit: &Hit, factor: f32) -> Option<Entry> {
+    /// Adds the element that was hit, or the black back of one.
+    fn enter(&self, row: &mut Row, hit: &Hit, factor: f32) {
         let root = self.mesh.roots[hit.triangle.index()];
         let mut element = self.mesh.element_at(hit.triangle, hit.barycentric);
+        if !hit.is_front && !root.has_backs {
+            return add(&mut row.backs, Entry { element, factor });
+        }
         if !hit.is_front {
-            if !root.has_backs {
-                return None;
-            }
             element.0 += root.num_elements;
         }
-        Some(Entry { element, factor })
+        add(&mut row.entries, Entry { element, factor });
     }
 }
 

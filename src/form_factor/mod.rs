@@ -37,15 +37,30 @@ pub struct Viewpoint {
 /// A viewpoint that sees more back faces than this share lies inside something. One behind a single-sided sheet sees half.
 pub const MAX_BACK_SHARE: f32 = 0.8;
 
-/// Form factors from one viewpoint: all entries, `back` and `sky` sum to 1.
+/// Form factors from one viewpoint: all entries, `backs` and `sky` sum to 1.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Row {
     /// Elements seen; an element may occur more than once.
     pub entries: Vec<Entry>,
-    /// Share that ends on the back of single-sided surfaces: a viewpoint inside a wall sees little else.
-    pub back: f32,
+    /// Black backs of single-sided surfaces, each by the element on its front.
+    pub backs: Vec<Entry>,
     /// Share that leaves the scene.
     pub sky: f32,
+}
+
+impl Row {
+    /// Share that ends on black backs: a viewpoint inside a wall sees little else.
+    #[must_use]
+    pub fn back(&self) -> f32 {
+        self.backs.iter().map(|entry| entry.factor).sum()
+    }
+
+    /// Takes all out, for another viewpoint.
+    fn clear(&mut self) {
+        self.entries.clear();
+        self.backs.clear();
+        self.sky = 0.0;
+    }
 }
 
 /// One form factor.

@@ -13,8 +13,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::row_file::{HEADER, RecordHead, read_entries, write_record};
-use super::{FormFactorError, FormFactors, Row, Viewpoint};
+use super::row_file::{HEADER, RecordHead, read_row, write_record};
+use super::{Entry, FormFactorError, FormFactors, Row, Viewpoint};
 use crate::base::fingerprint::Fingerprint;
 use crate::patch::PatchMesh;
 
@@ -103,7 +103,7 @@ impl RowCache {
     fn read(&self, name: u128) -> Option<Row> {
         let mut rows = self.rows();
         let place = *rows.places.get(&name)?;
-        let row = read_row(&mut rows.file, place);
+        let row = read_row_at(&mut rows.file, place);
         match row {
             Ok(row) => {
                 rows.num_reused += 1;
@@ -162,11 +162,11 @@ fn places(file: &mut File, length: u64) -> io::Result<Option<(HashMap<u128, u64>
     Ok(Some((places, end)))
 }
 
-fn read_row(file: &mut File, place: u64) -> io::Result<Row> {
+fn read_row_at(file: &mut File, place: u64) -> io::Result<Row> {
     file.seek(SeekFrom::Start(place))?;
     let length = file.metadata()?.len();
     let head = RecordHead::read(file, length - place)?.ok_or(io::ErrorKind::UnexpectedEof)?;
-    Ok(Row { entries: read_entries(file, &head)?, back: head.back, sky: head.sky })
+    read_row(file, &head)
 }
 
 /// A method whose rows are kept in a [`RowCache`].
@@ -204,7 +204,8 @@ impl<'a> CachedRows<'a> {
 
     /// A row of the file, as far as it speaks of elements that there are.
     fn read(&self, name: u128) -> Option<Row> {
-        self.cache.read(name).filter(|row| row.entries.iter().all(|entry| entry.element.index() < self.num_elements))
+        let is_known = |entry: &Entry| entry.element.index() < self.num_elements;
+        self.cache.read(name).filter(|row| row.entries.iter().chain(&row.backs).all(is_known))
     }
 }
 

@@ -3,9 +3,9 @@
 //! | record | bytes |
 //! |---|---|
 //! | name | 16 |
-//! | number of entries | 4 |
-//! | back and sky share | 4 and 4 |
-//! | element and factor, an entry | 4 and 4 |
+//! | number of entries and of backs | 4 and 4 |
+//! | sky share | 4 |
+//! | element and factor, an entry; then of the backs | 4 and 4 |
 
 use std::io::{self, Read};
 
@@ -13,7 +13,7 @@ use super::{Entry, Row};
 use crate::base::ids::ElementId;
 
 /// How a file begins; the digit is that of the format.
-pub(super) const HEADER: &[u8; 16] = b"hemicube rows 1\n";
+pub(super) const HEADER: &[u8; 16] = b"hemicube rows 2\n";
 
 /// Bytes of a record before its entries.
 const HEAD_BYTES: usize = 28;
@@ -25,8 +25,8 @@ pub(super) struct RecordHead {
     /// What the row depends on.
     pub name: u128,
     num_entries: u32,
-    pub back: f32,
-    pub sky: f32,
+    num_backs: u32,
+    sky: f32,
 }
 
 impl RecordHead {
@@ -42,15 +42,15 @@ impl RecordHead {
         let head = Self {
             name: u128::from_le_bytes(name.try_into().unwrap_or_default()),
             num_entries: u32::from_le_bytes(number(0)),
-            back: f32::from_le_bytes(number(1)),
+            num_backs: u32::from_le_bytes(number(1)),
             sky: f32::from_le_bytes(number(2)),
         };
         Ok((head.num_bytes() <= num_left).then_some(head))
     }
 
-    /// Bytes of the entries.
+    /// Bytes of the entries, those of backs among them.
     pub(super) fn num_entry_bytes(&self) -> u64 {
-        u64::from(self.num_entries) * ENTRY_BYTES as u64
+        (u64::from(self.num_entries) + u64::from(self.num_backs)) * ENTRY_BYTES as u64
     }
 
     /// Bytes of the whole record.
@@ -59,24 +59,26 @@ impl RecordHead {
     }
 }
 
-/// The entries that follow a head.
-pub(super) fn read_entries(from: &mut impl Read, head: &RecordHead) -> io::Result<Vec<Entry>> {
+/// The row whose entries follow a head.
+pub(super) fn read_row(from: &mut impl Read, head: &RecordHead) -> io::Result<Row> {
     let mut bytes = vec![0; head.num_entry_bytes() as usize];
     from.read_exact(&mut bytes)?;
     let entry = |&[a, b, c, d, e, f, g, h]: &[u8; ENTRY_BYTES]| Entry {
         element: ElementId(u32::from_le_bytes([a, b, c, d])),
         factor: f32::from_le_bytes([e, f, g, h]),
     };
-    Ok(bytes.as_chunks::<ENTRY_BYTES>().0.iter().map(entry).collect())
+    let mut entries: Vec<Entry> = bytes.as_chunks::<ENTRY_BYTES>().0.iter().map(entry).collect();
+    let backs = entries.split_off(head.num_entries as usize);
+    Ok(Row { entries, backs, sky: head.sky })
 }
 
 /// Appends the record of a row.
 pub(super) fn write_record(name: u128, row: &Row, bytes: &mut Vec<u8>) {
     bytes.extend(name.to_le_bytes());
     bytes.extend((row.entries.len() as u32).to_le_bytes());
-    bytes.extend(row.back.to_le_bytes());
+    bytes.extend((row.backs.len() as u32).to_le_bytes());
     bytes.extend(row.sky.to_le_bytes());
-    for entry in &row.entries {
+    for entry in row.entries.iter().chain(&row.backs) {
         bytes.extend(entry.element.0.to_le_bytes());
         bytes.extend(entry.factor.to_le_bytes());
     }
@@ -89,14 +91,14 @@ mod tests {
     #[test]
     fn a_record_is_read_as_it_was_written_and_not_where_it_is_cut_off() {
         let entries = vec![Entry { element: ElementId(7), factor: 0.25 }, Entry { element: ElementId(9), factor: 0.5 }];
-        let row = Row { entries, back: 0.125, sky: 0.125 };
+        let backs = vec![Entry { element: ElementId(3), factor: 0.125 }];
+        let row = Row { entries, backs, sky: 0.125 };
         let mut bytes = Vec::new();
         write_record(42 << 100, &row, &mut bytes);
         let mut reader = &bytes[..];
         let head = RecordHead::read(&mut reader, bytes.len() as u64).expect("read").expect("whole");
         assert_eq!((head.name, head.num_bytes()), (42 << 100, bytes.len() as u64));
-        let entries = read_entries(&mut reader, &head).expect("read");
-        assert_eq!(Row { entries, back: head.back, sky: head.sky }, row);
+        assert_eq!(read_row(&mut reader, &head).expect("read"), row);
         for length in 0..bytes.len() {
             assert_eq!(RecordHead::read(&mut &bytes[..length], length as u64).expect("read"), None);
         }

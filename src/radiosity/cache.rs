@@ -17,6 +17,10 @@ const BLEND: f32 = 2.0;
 /// Smallest neighbourhood, as a share of the largest: corners need no finer detail than the mesh shows.
 const SMALLEST: f32 = 1.0 / 64.0;
 
+/// How far in front of a record, and behind it, a place may lie, as a share of its neighbourhood.
+const IN_FRONT: f32 = 0.5;
+const BEHIND: f32 = 0.1;
+
 /// A site whose irradiance is known.
 #[derive(Clone, Copy, Debug)]
 struct Record {
@@ -106,9 +110,11 @@ impl IrradianceCache {
         let offset = viewpoint.position - record.position;
         let error = offset.length() * self.tolerance / record.radius
             + (1.0 - viewpoint.normal.dot(record.normal)).max(0.0).sqrt();
-        // A place in front of the record may be hidden from what the record sees.
+        // What a place in front of the record sees may be hidden from it, and a record in front of the place may lie on the
+        // very thing that hides something from that.
         let height = offset.dot(viewpoint.normal + record.normal) * 0.5;
-        (error < BLEND * self.tolerance && height.abs() < 0.5 * record.radius).then_some(error)
+        let is_level = height < IN_FRONT * record.radius && -height < BEHIND * record.radius;
+        (error < BLEND * self.tolerance && is_level).then_some(error)
     }
 }
 

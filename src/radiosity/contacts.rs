@@ -47,22 +47,26 @@ impl<'a> Contacts<'a> {
         self.light = Some((direct, is_valid.to_vec()));
     }
 
-    /// Elements in a row that are close to a place, and the distance of the nearest point on any.
+    /// Elements in a row that are close to a place, and the distance of the nearest point on any surface in it.
     #[must_use]
     pub fn of(&self, row: &Row, place: Vec3) -> (Vec<Contact>, f32) {
         let (mut contacts, mut nearest) = (Vec::new(), f32::MAX);
-        for entry in &row.entries {
-            let corners = self.mesh.corners(&self.mesh.elements[entry.element.index()]);
+        // Exact where it may count, else infinite.
+        let mut distance_of = |element: ElementId| {
+            let corners = self.mesh.corners(&self.mesh.elements[element.index()]);
             let size = corners[0].distance(corners[1]).max(corners[0].distance(corners[2]));
-            if corners[0].distance(place) - size < nearest.max(self.reach) {
-                let distance = closest_point(corners, place).distance(place);
-                nearest = nearest.min(distance);
-                let part = entry.factor * (1.0 - distance / self.reach);
-                if part > NEGLIGIBLE {
-                    contacts.push((entry.element, part));
-                }
+            let may_count = corners[0].distance(place) - size < nearest.max(self.reach);
+            let distance = if may_count { closest_point(corners, place).distance(place) } else { f32::INFINITY };
+            nearest = nearest.min(distance);
+            distance
+        };
+        for entry in &row.entries {
+            let part = entry.factor * (1.0 - distance_of(entry.element) / self.reach);
+            if part > NEGLIGIBLE {
+                contacts.push((entry.element, part));
             }
         }
+        row.backs.iter().for_each(|entry| _ = distance_of(entry.element));
         (contacts, nearest)
     }
 

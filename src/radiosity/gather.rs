@@ -186,16 +186,18 @@ impl<'a> Gatherer<'a> {
         let mut irradiance = vec![Vec3::ZERO; self.radiosity.num_groups()];
         let (mut inverse_distance, mut seen) = (0.0, 0.0);
         for entry in &row.entries {
-            let element = entry.element.index();
-            for (sum, &radiosity) in irradiance.iter_mut().zip(self.radiosity.at(element)) {
+            for (sum, &radiosity) in irradiance.iter_mut().zip(self.radiosity.at(entry.element.index())) {
                 *sum += entry.factor * radiosity;
             }
-            inverse_distance += entry.factor * self.centroids[element].distance(viewpoint.position).recip();
+        }
+        for entry in row.entries.iter().chain(&row.backs) {
+            let distance = self.centroids[entry.element.index()].distance(viewpoint.position);
+            inverse_distance += entry.factor * distance.recip();
             seen += entry.factor;
         }
         let distance = if inverse_distance > 0.0 { seen / inverse_distance } else { f32::MAX };
         let (contacts, nearest) = self.contacts.of(row, viewpoint.position);
-        Sight { irradiance, contacts, back: row.back, distance, nearest }
+        Sight { irradiance, contacts, back: row.back(), distance, nearest }
     }
 
     fn remember(&mut self, viewpoint: &Viewpoint, sight: Sight) {

@@ -67,7 +67,7 @@ impl RowStore {
         };
         let found = map_rows(method, &viewpoints, &go_on, |_, row| PatchRow {
             entries: merged(&row.entries),
-            back: row.back,
+            back: row.back(),
             sky: row.sky,
         })?;
         for (patch, rows) in missing.iter().zip(found.chunks_exact(self.points_a_patch)) {

@@ -62,7 +62,7 @@ impl PatchSight {
             items: view.items.iter().flat_map(item).collect(),
             shaded: develop(view.size, view.radiance, look).display,
             factors: factors(&row, solved.mesh.elements.len()),
-            open_share: row.sky + row.back,
+            open_share: row.sky + row.back(),
         }))
     }
 }
@@ -108,7 +108,7 @@ mod tests {
     #[test]
     fn entries_of_one_element_add_up() {
         let entry = |element, factor| Entry { element: ElementId::new(element), factor };
-        let row = Row { entries: vec![entry(2, 0.25), entry(0, 0.5), entry(2, 0.125)], back: 0.0, sky: 0.125 };
+        let row = Row { entries: vec![entry(2, 0.25), entry(0, 0.5), entry(2, 0.125)], sky: 0.125, ..Row::default() };
         assert_eq!(factors(&row, 4), [0.5, 0.0, 0.375, 0.0]);
     }
 }

@@ -92,8 +92,7 @@ impl<'a> Hemicubes<'a> {
         let seen = std::cell::RefCell::new(Vec::with_capacity(3 * n * n));
         self.run(std::slice::from_ref(viewpoint), &|| true, |items, _, _| {
             let lines = items.chunks(ATLAS_WIDTH as usize).take(3 * n);
-            seen.borrow_mut()
-                .extend(lines.flat_map(|line| &line[..n]).map(|item| item.checked_sub(row::FIRST_ELEMENT)));
+            seen.borrow_mut().extend(lines.flat_map(|line| &line[..n]).map(|&item| row::element_seen(item)));
         })?;
         Ok(seen.into_inner())
     }

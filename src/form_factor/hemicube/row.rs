@@ -4,20 +4,23 @@ use crate::base::ids::ElementId;
 use crate::form_factor::{Entry, Row};
 
 /// Item of a pixel that sees nothing.
-pub(super) const NOTHING: u32 = 0;
-/// Item of a pixel that sees the back of a single-sided surface.
-pub(super) const BACK: u32 = 1;
+const NOTHING: u32 = 0;
 /// Item of element 0.
-pub(super) const FIRST_ELEMENT: u32 = 2;
+const FIRST_ELEMENT: u32 = 1;
+/// Of an item: the pixel sees the black back of a single-sided surface, whose front is the element.
+const BLACK_BACK: u32 = 1 << 31;
+
+/// The element that a pixel sees; none where it sees nothing, or a black back.
+pub(super) fn element_seen(item: u32) -> Option<u32> {
+    (item & BLACK_BACK == 0).then(|| item.checked_sub(FIRST_ELEMENT)).flatten()
+}
 
 /// Sums the delta form factors of each run of equal items.
 ///
 /// `items` yields the rows of pixels of the atlas cell, `deltas` is laid out alike. Runs keep their order, so the sum is
 /// the same on every machine; an element seen in several runs gets several entries.
 pub(super) fn sum_items<'a>(items: impl Iterator<Item = &'a [u32]>, deltas: &[f32], width: usize, row: &mut Row) {
-    row.entries.clear();
-    row.back = 0.0;
-    row.sky = 0.0;
+    row.clear();
     for (line, weights) in items.zip(deltas.chunks_exact(width)) {
         let mut item = line[0];
         let mut factor = 0.0;
@@ -34,10 +37,11 @@ pub(super) fn sum_items<'a>(items: impl Iterator<Item = &'a [u32]>, deltas: &[f3
 }
 
 fn add(row: &mut Row, item: u32, factor: f32) {
+    let entry = |item: u32| Entry { element: ElementId(item - FIRST_ELEMENT), factor };
     match item {
         NOTHING => row.sky += factor,
-        BACK => row.back += factor,
-        _ => row.entries.push(Entry { element: ElementId(item - FIRST_ELEMENT), factor }),
+        _ if item & BLACK_BACK == 0 => row.entries.push(entry(item)),
+        _ => row.backs.push(entry(item & !BLACK_BACK)),
     }
 }
 
@@ -47,12 +51,12 @@ mod tests {
 
     #[test]
     fn runs_are_summed_and_the_row_is_complete() {
-        let items = [[2, 2, 0, 1], [3, 3, 3, 2]];
+        let items = [[1, 1, 0, BLACK_BACK | 3], [2, 2, 2, 1]];
         let deltas = [0.125; 8];
         let mut row = Row::default();
         sum_items(items.iter().map(|line| line.as_slice()), &deltas, 4, &mut row);
         let entry = |element, factor| Entry { element: ElementId(element), factor };
         assert_eq!(row.entries, [entry(0, 0.25), entry(1, 0.375), entry(0, 0.125)]);
-        assert_eq!((row.sky, row.back), (0.125, 0.125));
+        assert_eq!((row.sky, row.backs), (0.125, vec![entry(2, 0.125)]));
     }
 }

@@ -1,0 +1,56 @@
+//! What sites borrow from each other.
+
+use glam::Vec3;
+use hemicube::base::progress::Unwatched;
+use hemicube::form_factor::hemisphere::Hemispheres;
+use hemicube::form_factor::{Viewpoint, map_rows};
+use hemicube::patch::{MeshSettings, PatchMesh};
+use hemicube::radiosity::Field;
+use hemicube::radiosity::gather::{GatherSettings, Gatherer};
+use hemicube::scene::Scene;
+use hemicube::trace::Tracer;
+
+use crate::support::scenes::SceneBuilder;
+
+const WALL: f32 = 4.0;
+const SHEET: f32 = 3.96;
+
+/// A room with a single-sided sheet, such as a mirror, close before its wall at x = 4.
+fn room_with_a_sheet() -> Scene {
+    let mut builder = SceneBuilder::default();
+    let grey = builder.material(Vec3::splat(0.5), Vec3::ZERO);
+    builder.room(Vec3::ZERO, Vec3::new(WALL, 3.0, 4.0), [grey; 6]);
+    let corner = |y: f32, z: f32| Vec3::new(SHEET, y, z);
+    builder.quad([corner(0.4, 0.8), corner(0.4, 3.2), corner(2.4, 3.2), corner(2.4, 0.8)], grey);
+    builder.build(1)
+}
+
+/// Sites all over the wall and, where it hides it, the sheet.
+fn sites() -> Vec<Viewpoint> {
+    let places = (1..60).flat_map(|i| (1..80).map(move |k| (0.05 * i as f32, 0.05 * k as f32)));
+    let site = |(seed, (y, z))| {
+        let is_hidden = (0.4..2.4).contains(&y) && (0.8..3.2).contains(&z);
+        let x = if is_hidden { SHEET } else { WALL };
+        Viewpoint { position: Vec3::new(x - 1e-4, y, z), normal: Vec3::NEG_X, seed }
+    };
+    (0..).zip(places).map(site).collect()
+}
+
+/// All that reflects light reflects 1, and the back of the sheet nothing: irradiance is 1 less the share of backs.
+#[test]
+fn no_site_borrows_from_one_that_a_sheet_hides() {
+    let scene = room_with_a_sheet();
+    let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.25, patch_size: 0.5 }).unwrap();
+    let radiosity = Field::from_values(1, vec![Vec3::ONE; mesh.elements.len()]);
+    let tracer = Tracer::new(&scene);
+    let mut method = Hemispheres::new(&tracer, &mesh, 512);
+    let settings = GatherSettings { tolerance: 0.1, max_radius: 1.0, noise: f32::INFINITY, contact_reach: 0.1 };
+    let sites = sites();
+    let gathered = Gatherer::new(&mesh, &radiosity, settings).at(&mut method, &sites, &Unwatched).unwrap();
+    let alone = map_rows(&mut method, &sites, &|| true, |_, row| 1.0 - row.back()).unwrap();
+    let errors = gathered.indirect.values().iter().zip(&alone).map(|(light, alone)| (light.x - alone).abs());
+    let (on_sheet, on_wall): (Vec<_>, Vec<_>) = errors.zip(&sites).partition(|(_, site)| site.position.x < SHEET);
+    let worst = |errors: &[(f32, &Viewpoint)]| errors.iter().map(|(error, _)| *error).fold(0.0, f32::max);
+    assert!(worst(&on_sheet) < 0.01, "{} on the sheet, which sees no back", worst(&on_sheet));
+    assert!(worst(&on_wall) < 0.1, "{} on the wall", worst(&on_wall));
+}
