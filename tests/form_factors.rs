@@ -5,7 +5,7 @@ use hemicube::form_factor::hemicube::{Hemicubes, size_for_patches};
 use hemicube::form_factor::hemisphere::Hemispheres;
 use hemicube::form_factor::pair::PolygonPair;
 use hemicube::form_factor::polygon::Polygon;
-use hemicube::form_factor::{FormFactors, Row, Viewpoint, map_rows};
+use hemicube::form_factor::{Entry, FormFactors, Row, Viewpoint, map_rows};
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::sites::Sites;
 use hemicube::scene::{Scene, builtin};
@@ -27,10 +27,10 @@ fn rows(method: &mut dyn FormFactors, viewpoints: &[Viewpoint]) -> Vec<Row> {
     map_rows(method, viewpoints, &|| true, |_, row| row.clone()).unwrap()
 }
 
-/// Share of a row that goes to each input triangle.
-fn by_triangle(row: &Row, mesh: &PatchMesh) -> Vec<f32> {
+/// Share of the view that each input triangle fills.
+fn by_triangle(entries: &[Entry], mesh: &PatchMesh) -> Vec<f32> {
     let mut shares = vec![0.0; mesh.roots.len()];
-    for entry in &row.entries {
+    for entry in entries {
         shares[mesh.elements[entry.element.index()].triangle.index()] += entry.factor;
     }
     shares
@@ -66,12 +66,17 @@ fn hemispheres_and_hemicubes_agree() {
     let tracer = Tracer::new(&scene);
     let by_rays = rows(&mut Hemispheres::new(&tracer, &mesh, NUM_RAYS), &viewpoints);
     let by_pixels = rows(&mut Hemicubes::new(gpu, &scene, &mesh, 128), &viewpoints);
-    for (rays, pixels) in by_rays.iter().zip(&by_pixels) {
+    let assert_agree = |rays: &[Entry], pixels: &[Entry]| {
         for (a, b) in by_triangle(rays, &mesh).into_iter().zip(by_triangle(pixels, &mesh)) {
             let error = Hemispheres::standard_error(f64::from(b), f64::from(NUM_RAYS)) as f32;
             assert!((a - b).abs() < 4.0 * error + 1e-3, "{a} and {b}");
         }
+    };
+    for (rays, pixels) in by_rays.iter().zip(&by_pixels) {
+        assert_agree(&rays.entries, &pixels.entries);
+        assert_agree(&rays.backs, &pixels.backs);
     }
+    assert!(by_rays.iter().any(|row| row.back() > 0.1), "some places see backs");
 }
 
 #[test]
