@@ -16,7 +16,8 @@ use std::time::Instant;
 use glam::Vec3;
 use hemicube::baked::{BakedScene, VertexLight};
 use hemicube::base::ids::GroupId;
-use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::gpu::Gpu;
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Exposure, Look, Renderer, ShadowScene, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::{Camera, Light, LightKind, Scene, builtin, gltf};
 

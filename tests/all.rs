@@ -19,6 +19,7 @@ mod pictures;
 mod radiosity;
 mod raytrace;
 mod render_command;
+mod shaders;
 mod shadows;
 mod stopped;
 mod twins;

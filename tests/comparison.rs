@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use hemicube::baked::BakedScene;
-use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::gpu::Gpu;
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Look, ShadowScene, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::builtin;
 use hemicube::viewer::canvas::Canvas;

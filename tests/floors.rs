@@ -1,16 +1,18 @@
 //! The house of ARCHITECTURE.md: a file names its own folder and lower floors only, and wgpu stays where it belongs.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
+
+use crate::support::sources::files_below;
 
 /// Height of each folder or file directly below src/; equals never name each other.
 const FLOORS: [(&str, f32); 15] = [
     ("base", 0.0),
     ("scene", 1.0),
-    ("baked", 2.0),
+    ("gpu", 1.0),
     ("patch", 2.0),
     ("trace", 2.0),
-    // On a landing of its own: it uploads a BakedScene.
-    ("gpu", 2.5),
+    // On a landing of its own: its coarse mesh undoes what `patch` has cut.
+    ("baked", 2.5),
     ("form_factor", 3.0),
     ("lightmap", 3.0),
     ("raytrace", 3.0),
@@ -93,23 +95,11 @@ fn outer_items(group: &str) -> Vec<&str> {
     items
 }
 
-/// Every .rs file below `folder`.
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let entries =
-        std::fs::read_dir(folder).expect("the sources are there").map(|entry| entry.expect("readable").path());
-    let mut files: Vec<PathBuf> = entries
-        .flat_map(|path| if path.is_dir() { rust_files(&path) } else { vec![path] })
-        .filter(|path| path.extension().is_some_and(|extension| extension == "rs"))
-        .collect();
-    files.sort();
-    files
-}
-
 #[test]
 fn every_file_stays_on_its_floor() {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let mut found = Vec::new();
-    for path in rust_files(&src) {
+    for path in files_below(&src, "rs") {
         let file = path.strip_prefix(&src).expect("it lies there").to_string_lossy().replace('\\', "/");
         if !ENTRANCES.contains(&file.as_str()) {
             found.extend(violations(&file, &std::fs::read_to_string(&path).expect("it is text")));

@@ -4,8 +4,9 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 use hemicube::base::ids::{GroupId, InstanceId};
+use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;
-use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Look, LuxScale, Mark, Overlay, OverlayPass, Picture, Shading, View, picture_of, turbo};
 use wgpu::{CommandEncoderDescriptor, TextureFormat};
 

@@ -3,6 +3,7 @@
 //! The scene of a [`BakedScene`] has the *elements* as its triangles; double-sided input triangles are written out as a
 //! front and a back. Everything that works on a [`Scene`] (rays, shadows, `info`) therefore works on a bake.
 
+pub(crate) mod coarse;
 pub mod exposure;
 pub mod gltf;
 pub mod lightmap;

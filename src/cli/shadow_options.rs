@@ -7,7 +7,8 @@ use anyhow::Result;
 use clap::{Args, ValueEnum};
 
 use crate::baked::BakedScene;
-use crate::gpu::{Gpu, SceneBuffers};
+use crate::gpu::Gpu;
+use crate::render::scene::SceneBuffers;
 use crate::render::shadow::{Case, DebugView, Judge, ShadowDebug, shadow_difference};
 use crate::render::{ShadowScene, ShadowSettings, ShadowTechnique, View, save_display};
 use crate::scene::Camera;

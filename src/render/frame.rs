@@ -15,8 +15,9 @@ use super::tonemap::ToneMapPass;
 use super::weighted_light::WeightedLight;
 use super::{Look, View};
 use crate::gpu::readback::read_buffer;
-use crate::gpu::targets::Targets;
-use crate::gpu::{Gpu, GpuError, SceneBuffers, Stopwatch};
+use crate::gpu::{Gpu, GpuError, Stopwatch};
+use crate::render::scene::SceneBuffers;
+use crate::render::targets::Targets;
 use crate::scene::AlphaMode;
 
 /// Draws pictures of one output format.

@@ -9,7 +9,8 @@ use wgpu::util::DeviceExt;
 use super::look::MAX_GROUPS;
 use super::{Look, View};
 use crate::base::ids::GroupId;
-use crate::gpu::{Gpu, SceneBuffers};
+use crate::gpu::Gpu;
+use crate::render::scene::SceneBuffers;
 
 /// `Frame` of shaders/shared/frame.wgsl.
 #[repr(C)]
@@ -109,7 +110,8 @@ pub fn frame_bind_group(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::shaders::{SURFACE, struct_layout};
+    use crate::gpu::shader::struct_layout;
+    use crate::render::surface::SURFACE;
     use std::mem::offset_of;
 
     #[test]

@@ -8,8 +8,13 @@ use glam::Vec3;
 use super::Look;
 use super::look::MAX_GROUPS;
 use crate::base::ids::GroupId;
-use crate::gpu::tiles::{HeldLight, Tiles};
-use crate::gpu::{Gpu, SceneBuffers, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+use crate::render::scene::SceneBuffers;
+use crate::render::scene::tiles::{HeldLight, Tiles};
+
+/// Light of the vertices spread over the tiles of a coarse mesh.
+pub(in crate::render) const FILL_TILES: Shader = shader!("fill tiles", "shared/frame.wgsl", "fill_tiles.wgsl");
 
 /// Invocations of a compute group.
 const GROUP: u32 = 64;
@@ -100,7 +105,7 @@ fn weights(look: &Look, lit_by_lights: bool) -> Vec<Vec3> {
 
 impl Pipelines {
     fn new(gpu: &Gpu, layout: &wgpu::PipelineLayout, lit_by_lights: bool) -> Self {
-        let module = shaders::FILL_TILES.module(&gpu.device);
+        let module = FILL_TILES.module(gpu);
         let constants = [("LIT_BY_LIGHTS", f64::from(u8::from(lit_by_lights)))];
         let pipeline = |entry_point| {
             gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
@@ -126,7 +131,7 @@ fn bind_group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     };
     let texture = wgpu::BindingType::StorageTexture {
         access: wgpu::StorageTextureAccess::WriteOnly,
-        format: crate::gpu::targets::HDR_FORMAT,
+        format: crate::render::targets::HDR_FORMAT,
         view_dimension: wgpu::TextureViewDimension::D2,
     };
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {

@@ -1,7 +1,11 @@
 //! Metering: the exposure that suits a picture, found on the GPU so that a live frame never waits for it.
 
-use crate::gpu::targets::Targets;
-use crate::gpu::{Gpu, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+use crate::render::targets::Targets;
+
+/// Metering: the exposure that suits a picture.
+pub(in crate::render) const METER: Shader = shader!("meter", "shared/frame.wgsl", "shared/colour.wgsl", "meter.wgsl");
 
 /// `NUM_BINS` of shaders/meter.wgsl.
 const NUM_BINS: u64 = 256;
@@ -40,7 +44,7 @@ pub struct Meter {
 impl Meter {
     /// Pipelines, histogram and result.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
-        let module = shaders::METER.module(&gpu.device);
+        let module = METER.module(gpu);
         let layout = bind_group_layout(gpu);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("meter"),

@@ -1,7 +1,7 @@
 //! Floor 3: pictures of a lit scene, for the window and for files.
 //!
 //! The end of the route: a [`BakedScene`](crate::baked::BakedScene) is uploaded as
-//! [`SceneBuffers`](crate::gpu::SceneBuffers) and drawn by a [`Renderer`], whose [`frame`] reads as a recipe of passes;
+//! [`SceneBuffers`](crate::render::scene::SceneBuffers) and drawn by a [`Renderer`], whose [`frame`] reads as a recipe of passes;
 //! each pass is a file here and a shader of the same stem. [`picture()`] does it all without a window.
 //! Deliberately absent: a render graph, a scene tree, view-dependent light; light comes from the vertices.
 
@@ -14,7 +14,9 @@ pub mod light_tiles;
 mod look;
 pub mod overlay;
 pub mod picture;
+pub mod scene;
 pub mod shadow;
+pub mod targets;
 pub mod view;
 
 mod frame_uniform;

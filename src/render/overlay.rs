@@ -8,10 +8,16 @@ use wgpu::util::DeviceExt;
 
 use super::frame_uniform::{frame_bind_group, frame_layout};
 use super::{Look, View};
-use crate::gpu::scene_buffers::GpuVertex;
-use crate::gpu::targets::DEPTH_FORMAT;
-use crate::gpu::{Gpu, SceneBuffers, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+use crate::render::scene::SceneBuffers;
+use crate::render::scene::buffers::GpuVertex;
+use crate::render::targets::DEPTH_FORMAT;
 use crate::scene::AlphaMode;
+
+/// Lines and tinted faces over a picture.
+pub(in crate::render) const OVERLAY: Shader =
+    shader!("overlay", "shared/frame.wgsl", "shared/colour.wgsl", "overlay.wgsl");
 
 /// A corner of a mark.
 #[repr(C)]
@@ -65,7 +71,7 @@ impl OverlayPass {
     #[must_use]
     pub fn new(gpu: &Gpu, output_format: wgpu::TextureFormat) -> Self {
         let frame_layout = frame_layout(gpu);
-        let module = shaders::OVERLAY.module(&gpu.device);
+        let module = OVERLAY.module(gpu);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("overlay"),
             bind_group_layouts: &[Some(&frame_layout)],

@@ -11,7 +11,8 @@ use crate::baked::BakedScene;
 use crate::base::colour::srgb_from_linear;
 use crate::base::output::write_whole;
 use crate::gpu::readback::read_texture;
-use crate::gpu::{Gpu, GpuError, SceneBuffers};
+use crate::gpu::{Gpu, GpuError};
+use crate::render::scene::SceneBuffers;
 use crate::scene::Camera;
 
 /// Samples a pixel of a picture for people.

@@ -7,10 +7,93 @@ use super::shadow::few_lights::{self, Kinds};
 use super::shadow::real_time::LiveLight;
 use super::surface_targets::SurfaceTargets;
 use super::surface_variant::Variant;
-use crate::gpu::material_buffers::material_layout;
-use crate::gpu::scene_buffers::Batch;
-use crate::gpu::targets::HDR_FORMAT;
-use crate::gpu::{Gpu, SceneBuffers, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+use crate::render::scene::SceneBuffers;
+use crate::render::scene::buffers::Batch;
+use crate::render::scene::materials::material_layout;
+use crate::render::targets::HDR_FORMAT;
+
+/// Surface pass: radiance of each visible point.
+pub(in crate::render) const SURFACE: Shader = shader!(
+    "surface",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "shared/varying.wgsl",
+    "surface.wgsl",
+    "shared/direct_stored.wgsl"
+);
+/// Surface pass with the light of the vertices in tiles.
+pub(in crate::render) const SURFACE_TILES: Shader = shader!(
+    "surface, tiles",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "shared/varying_tiles.wgsl",
+    "surface.wgsl",
+    "shared/direct_stored.wgsl"
+);
+/// Surface pass with direct irradiance from a texture with one sample a pixel.
+pub(in crate::render) const SURFACE_LIT: Shader = shader!(
+    "surface lit",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "shared/varying.wgsl",
+    "surface.wgsl",
+    "shared/direct_one.wgsl"
+);
+/// Surface pass with direct irradiance from a texture with several samples a pixel.
+pub(in crate::render) const SURFACE_LIT_SAMPLES: Shader = shader!(
+    "surface lit samples",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "shared/varying.wgsl",
+    "surface.wgsl",
+    "shared/direct_many.wgsl"
+);
+/// Surface pass with the direct light of a few light samples.
+pub(in crate::render) const SURFACE_FEW_LIGHTS: Shader = shader!(
+    "surface few lights",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "shared/facet.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/shadow_map.wgsl",
+    "shared/map_lookup.wgsl",
+    "shared/varying_few.wgsl",
+    "surface.wgsl",
+    "shared/direct_few.wgsl"
+);
+/// The same with the light of the vertices in tiles.
+pub(in crate::render) const SURFACE_FEW_LIGHTS_TILES: Shader = shader!(
+    "surface few lights, tiles",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/false_colour.wgsl",
+    "shared/material.wgsl",
+    "shared/facet.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/shadow_map.wgsl",
+    "shared/map_lookup.wgsl",
+    "shared/varying_few_tiles.wgsl",
+    "surface.wgsl",
+    "shared/direct_few.wgsl"
+);
 
 /// Pipelines that are kept; those of a look are a few, and a software driver keeps a megabyte for each.
 const MOST_PIPELINES: usize = 16;
@@ -64,20 +147,20 @@ impl DirectSource {
         self.tiled_shader().is_some()
     }
 
-    fn tiled_shader(self) -> Option<&'static shaders::Shader> {
+    fn tiled_shader(self) -> Option<&'static Shader> {
         match self {
-            DirectSource::Stored => Some(&shaders::SURFACE_TILES),
-            DirectSource::Few => Some(&shaders::SURFACE_FEW_LIGHTS_TILES),
+            DirectSource::Stored => Some(&SURFACE_TILES),
+            DirectSource::Few => Some(&SURFACE_FEW_LIGHTS_TILES),
             DirectSource::Pixels | DirectSource::Samples => None,
         }
     }
 
-    fn shader(self) -> &'static shaders::Shader {
+    fn shader(self) -> &'static Shader {
         match self {
-            DirectSource::Stored => &shaders::SURFACE,
-            DirectSource::Pixels => &shaders::SURFACE_LIT,
-            DirectSource::Samples => &shaders::SURFACE_LIT_SAMPLES,
-            DirectSource::Few => &shaders::SURFACE_FEW_LIGHTS,
+            DirectSource::Stored => &SURFACE,
+            DirectSource::Pixels => &SURFACE_LIT,
+            DirectSource::Samples => &SURFACE_LIT_SAMPLES,
+            DirectSource::Few => &SURFACE_FEW_LIGHTS,
         }
     }
 
@@ -148,8 +231,8 @@ impl SurfacePass {
     /// A pass for targets with `samples` samples a pixel, and for direct light from `source`.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32, source: DirectSource) -> Self {
         let direct_layout = source.layout(gpu);
-        let module = source.shader().module(&gpu.device);
-        let tiled_module = source.tiled_shader().map(|shader| shader.module(&gpu.device));
+        let module = source.shader().module(gpu);
+        let tiled_module = source.tiled_shader().map(|shader| shader.module(gpu));
         let material = material_layout(gpu);
         let light_layout = light_layout(gpu);
         let mut layouts = vec![Some(frame_layout), Some(&light_layout), Some(&material)];

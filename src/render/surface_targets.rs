@@ -4,7 +4,7 @@ use super::Look;
 use super::surface_variant::Output;
 use crate::base::colour::srgb_from_linear;
 use crate::gpu::Gpu;
-use crate::gpu::targets::Targets;
+use crate::render::targets::Targets;
 
 /// What is drawn into, all of one size.
 pub struct SurfaceTargets<'a> {

@@ -3,8 +3,8 @@
 use super::weighted_light::WeightedLight;
 use super::{Look, Shading, ToneMap};
 use crate::gpu::Gpu;
-use crate::gpu::scene_buffers::{Batch, Faces, GpuVertex};
-use crate::gpu::targets::{DEPTH_FORMAT, HDR_FORMAT, LUMINANCE_FORMAT};
+use crate::render::scene::buffers::{Batch, Faces, GpuVertex};
+use crate::render::targets::{DEPTH_FORMAT, HDR_FORMAT, LUMINANCE_FORMAT};
 use crate::scene::AlphaMode;
 
 /// Colour is premultiplied and coverage adds up under it.

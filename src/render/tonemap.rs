@@ -1,7 +1,27 @@
 //! Tone mapping: the HDR picture becomes display colours in the caller's target.
 
-use crate::gpu::targets::Targets;
-use crate::gpu::{Gpu, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+use crate::render::targets::Targets;
+
+/// Tone mapping of a picture with one sample a pixel.
+pub(in crate::render) const TONEMAP: Shader = shader!(
+    "tonemap",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/samples_one.wgsl",
+    "tonemap.wgsl"
+);
+/// Tone mapping of a picture with several samples a pixel.
+pub(in crate::render) const TONEMAP_SAMPLES: Shader = shader!(
+    "tonemap samples",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/display.wgsl",
+    "shared/samples_many.wgsl",
+    "tonemap.wgsl"
+);
 
 /// Tone mapping.
 pub struct ToneMapPass {
@@ -17,8 +37,8 @@ impl ToneMapPass {
         output_format: wgpu::TextureFormat,
         samples: u32,
     ) -> Self {
-        let shader = if samples > 1 { &shaders::TONEMAP_SAMPLES } else { &shaders::TONEMAP };
-        let module = shader.module(&gpu.device);
+        let shader = if samples > 1 { &TONEMAP_SAMPLES } else { &TONEMAP };
+        let module = shader.module(gpu);
         let layout = bind_group_layout(gpu, samples > 1);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some(shader.name),

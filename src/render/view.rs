@@ -5,7 +5,7 @@ use glam::{Mat4, Vec3, Vec4};
 
 use super::Look;
 use crate::base::bounds::Frustum;
-use crate::gpu::scene_view::Outlook;
+use crate::render::scene::view::Outlook;
 use crate::scene::{Camera, Projection};
 
 /// Near plane of a perspective view, metres; reversed depth stays exact however near it is.

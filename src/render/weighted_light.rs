@@ -6,8 +6,13 @@ use glam::Vec3;
 use super::Look;
 use super::look::MAX_GROUPS;
 use crate::base::ids::GroupId;
-use crate::gpu::vertex_light::LightVersion;
-use crate::gpu::{Gpu, SceneBuffers, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+use crate::render::scene::SceneBuffers;
+use crate::render::scene::vertex_light::LightVersion;
+
+/// Light of the vertices summed over the light groups.
+pub(in crate::render) const WEIGH_GROUPS: Shader = shader!("weigh groups", "shared/frame.wgsl", "weigh_groups.wgsl");
 
 /// Invocations of a compute group.
 const GROUP: u32 = 64;
@@ -55,7 +60,7 @@ impl WeightedLight {
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some("weigh groups"),
             layout: Some(&pipeline_layout),
-            module: &shaders::WEIGH_GROUPS.module(&gpu.device),
+            module: &WEIGH_GROUPS.module(gpu),
             entry_point: Some("weigh"),
             compilation_options: Default::default(),
             cache: None,

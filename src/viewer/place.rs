@@ -16,9 +16,10 @@ use super::worker::{Loaded, Mesh};
 use crate::bake::BakeSettings;
 use crate::base::colour::luminance;
 use crate::base::ids::InstanceId;
-use crate::gpu::{Gpu, SceneBuffers};
+use crate::gpu::Gpu;
 use crate::patch::MeshSettings;
 use crate::render::LuxScale;
+use crate::render::scene::SceneBuffers;
 use crate::scene::Scene;
 
 /// Shares of the vertices that a fitted scale leaves out below and above.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::gpu::SceneBuffers;
+use crate::render::scene::SceneBuffers;
 use crate::render::{Look, Overlay, ShadowScene, ShadowSettings, View};
 
 /// How finely a picture is drawn.

@@ -6,7 +6,8 @@ use std::sync::Arc;
 use super::canvas::Canvas;
 use super::sight::{Detail, Sight};
 use crate::baked::BakedScene;
-use crate::gpu::{Gpu, SceneBuffers};
+use crate::gpu::Gpu;
+use crate::render::scene::SceneBuffers;
 use crate::render::{Look, ShadowScene, View};
 use crate::scene::builtin;
 

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use hemicube::baked::{BakedScene, VertexLight};
-use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::gpu::Gpu;
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{
     Exposure, Look, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View, picture_in_light,
 };

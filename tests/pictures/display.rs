@@ -4,8 +4,9 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
+use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;
-use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Exposure, Look, Picture, Raster, Renderer, ToneMap, View, picture};
 use hemicube::scene::Material;
 use wgpu::{CommandEncoderDescriptor, TextureFormat};

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
-use hemicube::gpu::SceneBuffers;
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Exposure, Look, Raster, ToneMap, develop, picture_of};
 use hemicube::scene::{Camera, Material};
 

@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
-use hemicube::gpu::SceneBuffers;
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Look, Shading, picture, picture_of};
 use hemicube::scene::Material;
 

@@ -4,7 +4,8 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
-use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::gpu::Gpu;
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Look, Renderer, View};
 use wgpu::TextureFormat;
 

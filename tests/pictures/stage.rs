@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 
 use glam::Vec3;
-use hemicube::gpu::SceneBuffers;
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Exposure, Look, Picture, ToneMap, picture_of};
 use hemicube::scene::Material;
 

@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use glam::Vec3;
 use hemicube::baked::BakedScene;
-use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::gpu::Gpu;
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::reconstruct::dark_scene;
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{
     Exposure, Look, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, View, picture_in_light,
 };

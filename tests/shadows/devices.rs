@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use hemicube::baked::{BakedScene, VertexLight};
-use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::gpu::Gpu;
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::shadow::{Case, Decisions, Judge, shadow_difference};
 use hemicube::render::{ShadowScene, ShadowTechnique, View};
 

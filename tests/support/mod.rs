@@ -5,3 +5,4 @@ pub mod quads;
 pub mod scenes;
 pub mod screen;
 pub mod snapshot;
+pub mod sources;

@@ -1,7 +1,8 @@
 //! What stands for the screen: a texture that pictures are displayed in.
 
+use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;
-use hemicube::gpu::{Gpu, SceneBuffers};
+use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Look, Renderer, View};
 use wgpu::{
     CommandEncoderDescriptor, Extent3d, Texture, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,

@@ -22,12 +22,16 @@ use rayon::prelude::*;
 use self::atlas::{ATLAS_WIDTH, Atlas, Layout};
 use self::geometry::{Geometry, VERTEX_LAYOUT};
 use super::{FormFactorError, FormFactors, Row, Viewpoint};
-use crate::gpu::{Gpu, GpuError, shaders};
+use crate::gpu::shader::{Shader, shader};
+use crate::gpu::{Gpu, GpuError};
 use crate::patch::PatchMesh;
 use crate::scene::Scene;
 
 pub use delta::delta_form_factors;
 pub use resolution::size_for_patches;
+
+/// Item buffer: element ids seen from a hemicube.
+const ITEM_BUFFER: Shader = shader!("item_buffer", "item_buffer.wgsl");
 
 /// One atlas is summed while one is drawn and one waits for its turn.
 const NUM_ATLASES: usize = 3;
@@ -182,7 +186,7 @@ fn bindings_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
 }
 
 fn pipeline(gpu: &Gpu, bindings_layout: &wgpu::BindGroupLayout, has_cutouts: bool) -> wgpu::RenderPipeline {
-    let module = shaders::ITEM_BUFFER.module(&gpu.device);
+    let module = ITEM_BUFFER.module(gpu);
     let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some("item buffer"),
         bind_group_layouts: &[Some(bindings_layout)],

@@ -17,9 +17,21 @@ use super::planar_shadow::SHADOWS;
 use super::real_time::Subject;
 use super::solid::SolidPipelines;
 use crate::base::ids::{MaterialId, TriangleId};
-use crate::gpu::material_buffers::material_layout;
-use crate::gpu::{Gpu, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+use crate::render::scene::materials::material_layout;
 use crate::scene::{AlphaMode, Scene};
+
+/// Marks what lies behind casters with holes.
+pub(in crate::render) const CUTOUT_SHADOW: Shader = shader!(
+    "cut-out shadow",
+    "shared/frame.wgsl",
+    "shared/material.wgsl",
+    "shared/visible_point.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
+    "cutout_shadow.wgsl"
+);
 
 /// Boxes are this much wider than what they hold, as a share of the scene's extent.
 const SLACK: f32 = 1e-5;
@@ -126,7 +138,7 @@ impl CutoutShadowPass {
         sample_layout: &wgpu::BindGroupLayout,
         samples: u32,
     ) -> Self {
-        let module = shaders::CUTOUT_SHADOW.module(&gpu.device);
+        let module = CUTOUT_SHADOW.module(gpu);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("cut-out shadow"),
             bind_group_layouts: &[
@@ -217,7 +229,7 @@ fn pipeline(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::shaders::{CUTOUT_SHADOW, struct_layout};
+    use crate::gpu::shader::struct_layout;
     use std::mem::offset_of;
 
     #[test]

@@ -3,10 +3,16 @@
 use super::light_targets::{LightTargets, depth_stencil_format};
 use super::pipeline::{PipelineRecipe, culling, nearest};
 use super::solid::{SolidPipelines, bind_mesh, solid_batches};
-use crate::gpu::material_buffers::material_layout;
-use crate::gpu::{Gpu, SceneBuffers, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
 use crate::render::Look;
+use crate::render::scene::SceneBuffers;
+use crate::render::scene::materials::material_layout;
 use crate::scene::AlphaMode;
+
+/// Depth of the visible surfaces.
+pub(in crate::render) const DEPTH_PREPASS: Shader =
+    shader!("depth prepass", "shared/frame.wgsl", "shared/material.wgsl", "depth_prepass.wgsl");
 
 /// Depth prepass.
 pub struct DepthPrepass {
@@ -17,7 +23,7 @@ pub struct DepthPrepass {
 impl DepthPrepass {
     /// Pipelines for targets with `samples` samples a pixel.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32) -> Self {
-        let module = shaders::DEPTH_PREPASS.module(&gpu.device);
+        let module = DEPTH_PREPASS.module(gpu);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("depth prepass"),
             bind_group_layouts: &[Some(frame_layout), None, Some(&material_layout(gpu))],

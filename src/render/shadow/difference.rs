@@ -7,8 +7,9 @@ use glam::Vec3;
 
 use super::real_time::{RealTimeLight, SampleDecisions, Subject};
 use super::{ShadowScene, ShadowSettings};
-use crate::gpu::{Gpu, GpuError, SceneBuffers};
+use crate::gpu::{Gpu, GpuError};
 use crate::render::frame_uniform::{frame_bind_group, frame_layout};
+use crate::render::scene::SceneBuffers;
 use crate::render::{Look, View};
 
 /// Which pixels the lights of a scene reach.

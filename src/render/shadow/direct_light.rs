@@ -3,8 +3,22 @@
 use super::light_targets::{LightTargets, irradiance_format};
 use super::pipeline::{PipelineRecipe, against_depth, culling};
 use super::solid::SolidPipelines;
-use crate::gpu::{Gpu, SceneBuffers, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
 use crate::render::Look;
+use crate::render::scene::SceneBuffers;
+
+/// Direct light of one sample where the stencil lets it pass.
+pub(in crate::render) const DIRECT_LIGHT: Shader = shader!(
+    "direct light",
+    "shared/frame.wgsl",
+    "shared/facet.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
+    "shared/lit_point.wgsl",
+    "shared/visibility_stencil.wgsl",
+    "direct_light.wgsl"
+);
 
 /// Which stencil values are lit, and how.
 #[derive(Clone, Copy, Debug)]
@@ -34,11 +48,11 @@ impl DirectLightPass {
     pub fn new(
         gpu: &Gpu,
         layouts: &[Option<&wgpu::BindGroupLayout>],
-        (shader, constants): (&shaders::Shader, &[(&str, f64)]),
+        (shader, constants): (&Shader, &[(&str, f64)]),
         samples: u32,
         lit: &Lit,
     ) -> Self {
-        let module = shader.module(&gpu.device);
+        let module = shader.module(gpu);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("direct light"),
             bind_group_layouts: layouts,

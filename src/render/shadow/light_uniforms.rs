@@ -146,7 +146,9 @@ impl LightUniforms {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::shaders::{DIRECT_LIGHT, DIRECT_LIGHT_MAP, constant, struct_layout};
+    use crate::gpu::shader::{constant, struct_layout};
+    use crate::render::shadow::direct_light::DIRECT_LIGHT;
+    use crate::render::shadow::map_light::DIRECT_LIGHT_MAP;
     use std::mem::offset_of;
 
     #[test]

@@ -7,7 +7,8 @@ use glam::Mat4;
 
 use super::map_overview::num_blocks;
 use super::map_pipelines::{DEPTH_FORMAT, OVERVIEW_FORMAT};
-use crate::gpu::{Gpu, SceneBuffers};
+use crate::gpu::Gpu;
+use crate::render::scene::SceneBuffers;
 
 /// Texels that are kept at most: 256 MiB, sixteen faces of the usual size, and a sixteenth of it for their overviews.
 const MAX_TEXELS: usize = 1 << 26;

@@ -5,7 +5,22 @@
 use std::collections::HashMap;
 
 use super::direct_light::{DirectLightPass, WHERE_UNSHADOWED};
-use crate::gpu::{Gpu, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+
+/// Direct light of one sample where its shadow map sees the point.
+pub(in crate::render) const DIRECT_LIGHT_MAP: Shader = shader!(
+    "direct light, map",
+    "shared/frame.wgsl",
+    "shared/facet.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
+    "shared/lit_point.wgsl",
+    "shared/shadow_map.wgsl",
+    "shared/map_lookup.wgsl",
+    "shared/visibility_map.wgsl",
+    "direct_light.wgsl"
+);
 
 /// What a map is like.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -35,7 +50,7 @@ impl MapLight {
             let constants =
                 [("IS_CUBE", f64::from(u8::from(kind.is_cube))), ("PCF_RADIUS", f64::from(kind.pcf_radius))];
             let layouts = self.layouts.each_ref().map(Some);
-            let shader = (&shaders::DIRECT_LIGHT_MAP, constants.as_slice());
+            let shader = (&DIRECT_LIGHT_MAP, constants.as_slice());
             DirectLightPass::new(gpu, &layouts, shader, self.samples, &WHERE_UNSHADOWED)
         })
     }

@@ -7,7 +7,12 @@ use super::map_cache::Map;
 use super::map_pipelines::{DEPTH_ARRAY, GATHERED, OVERVIEW_FORMAT, UNIFORM, entry, uniform_buffer};
 use super::map_projection::MapUniform;
 use super::pipeline::PipelineRecipe;
-use crate::gpu::{Gpu, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+
+/// Planes that blocks of a shadow map show.
+pub(in crate::render) const MAP_OVERVIEW: Shader =
+    shader!("map overview", "shared/shadow_map.wgsl", "map_overview.wgsl");
 
 /// Texels across a block: `BLOCK` of shaders/shared/shadow_map.wgsl.
 const BLOCK: u32 = 8;
@@ -43,7 +48,7 @@ impl OverviewPass {
         let pipeline = PipelineRecipe {
             vertex: None,
             fragment: Some(("fragment", &[Some(OVERVIEW_FORMAT.into())])),
-            ..PipelineRecipe::new("map overview", &pipeline_layout, &shaders::MAP_OVERVIEW.module(&gpu.device))
+            ..PipelineRecipe::new("map overview", &pipeline_layout, &MAP_OVERVIEW.module(gpu))
         }
         .make(gpu);
         Self { layout, pipeline }
@@ -92,7 +97,7 @@ impl OverviewPass {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::shaders::{MAP_OVERVIEW, constant};
+    use crate::gpu::shader::constant;
 
     #[test]
     fn blocks_are_as_large_as_the_shader_has_them() {

@@ -172,7 +172,8 @@ impl Fitted {
 mod tests {
     use super::*;
     use crate::base::ids::GroupId;
-    use crate::gpu::shaders::{DIRECT_LIGHT_MAP, struct_layout};
+    use crate::gpu::shader::struct_layout;
+    use crate::render::shadow::map_light::DIRECT_LIGHT_MAP;
     use crate::scene::{Light, builtin};
 
     #[test]

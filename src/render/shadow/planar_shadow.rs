@@ -15,8 +15,12 @@ use super::flattening::{Receiver, flattened, is_same_plane, plane_of, receivers}
 use super::pipeline::{CORNER, PipelineRecipe, against_depth};
 use super::real_time::Subject;
 use crate::base::ids::{InstanceId, TriangleId};
-use crate::gpu::{Gpu, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
 use crate::scene::Scene;
+
+/// Receivers, and casters flattened on to them.
+pub(in crate::render) const PLANAR_SHADOW: Shader = shader!("planar shadow", "shared/frame.wgsl", "planar_shadow.wgsl");
 
 /// Stencil bits that count shadows.
 pub const SHADOWS: u32 = 0x07;
@@ -97,7 +101,7 @@ pub struct PlanarShadowPass {
 impl PlanarShadowPass {
     /// Pipelines for targets with `samples` samples a pixel.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32) -> Self {
-        let module = shaders::PLANAR_SHADOW.module(&gpu.device);
+        let module = PLANAR_SHADOW.module(gpu);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("planar shadow"),
             bind_group_layouts: &[Some(frame_layout)],

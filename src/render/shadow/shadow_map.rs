@@ -11,9 +11,14 @@ use super::map_pipelines::{face_layout, pipeline, read_layout, uniform_buffer};
 use super::map_projection::{MapProjection, MapUniform};
 use super::real_time::Subject;
 use super::solid::bind_mesh;
-use crate::gpu::material_buffers::material_layout;
-use crate::gpu::{Gpu, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+use crate::render::scene::materials::material_layout;
 use crate::scene::AlphaMode;
+
+/// Depth as a light sees it.
+pub(in crate::render) const SHADOW_MAP: Shader =
+    shader!("shadow map", "shared/frame.wgsl", "shared/material.wgsl", "shadow_map.wgsl");
 
 /// How shadow maps are drawn and read.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,7 +66,7 @@ pub struct ReadableMap {
 impl ShadowMapPass {
     /// Pipelines and sampler.
     pub fn new(gpu: &Gpu) -> Self {
-        let module = shaders::SHADOW_MAP.module(&gpu.device);
+        let module = SHADOW_MAP.module(gpu);
         let face_layout = face_layout(gpu);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("shadow map"),

@@ -22,7 +22,17 @@ use super::near_plane::NearPlane;
 use super::real_time::Subject;
 use super::silhouette::{Counting, Hull, facing, hull, hull_triangle_by_triangle, terminator};
 use super::volume_pipelines::VolumePipelines;
-use crate::gpu::{Gpu, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+
+/// Counts shadow volumes in the stencil.
+pub(in crate::render) const SHADOW_VOLUME: Shader = shader!(
+    "shadow volume",
+    "shared/frame.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
+    "shadow_volume.wgsl"
+);
 
 /// What the stencil holds where a triangle turns its back to the light.
 const DARK: u32 = 1;
@@ -93,7 +103,7 @@ impl ShadowVolumePass {
         sample_layout: &wgpu::BindGroupLayout,
         samples: u32,
     ) -> Self {
-        let module = shaders::SHADOW_VOLUME.module(&gpu.device);
+        let module = SHADOW_VOLUME.module(gpu);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("shadow volume"),
             bind_group_layouts: &[Some(frame_layout), Some(sample_layout)],

@@ -1,8 +1,8 @@
 //! Drawing the solid surfaces of a scene: all but those that blend, with the faces that a look shows.
 
-use crate::gpu::SceneBuffers;
-use crate::gpu::scene_buffers::Batch;
 use crate::render::Look;
+use crate::render::scene::SceneBuffers;
+use crate::render::scene::buffers::Batch;
 use crate::scene::AlphaMode;
 
 /// One pipeline for surfaces whose backs are left out, one for those with two faces.

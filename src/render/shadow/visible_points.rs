@@ -6,8 +6,14 @@ use super::light_targets::LightTargets;
 use super::pipeline::{PipelineRecipe, against_depth, culling};
 use super::solid::SolidPipelines;
 use crate::gpu::readback::read_texture;
-use crate::gpu::{Gpu, GpuError, SceneBuffers, shaders};
+use crate::gpu::shader::{Shader, shader};
+use crate::gpu::{Gpu, GpuError};
 use crate::render::Look;
+use crate::render::scene::SceneBuffers;
+
+/// Places and normals of visible points.
+pub(in crate::render) const VISIBLE_POINTS: Shader =
+    shader!("visible points", "shared/frame.wgsl", "shared/visible_point.wgsl", "shared/facet.wgsl", "raytraced.wgsl");
 
 /// A visible point.
 #[derive(Clone, Copy, Debug)]
@@ -26,7 +32,7 @@ pub struct VisiblePoints {
 impl VisiblePoints {
     /// Pipelines for targets with one sample a pixel.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
-        let module = shaders::VISIBLE_POINTS.module(&gpu.device);
+        let module = VISIBLE_POINTS.module(gpu);
         let layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
             label: Some("visible points"),
             bind_group_layouts: &[Some(frame_layout)],

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use super::Source;
 use crate::bake::BakeSettings;
-use crate::gpu::SceneBuffers;
 use crate::render::ShadowScene;
+use crate::render::scene::SceneBuffers;
 use crate::scene::Scene;
 use crate::viewer::advice::Advice;
 use crate::viewer::collider::Collider;

@@ -4,8 +4,29 @@ use super::super::light_samples::LightSample;
 use super::super::pipeline::PipelineRecipe;
 use super::super::planar_shadow::SHADOWS;
 use super::ShadowTechnique;
-use crate::gpu::{Gpu, shaders};
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
 use crate::render::turbo;
+
+/// What the stencil counts, in colours over a picture.
+pub(in crate::render) const STENCIL_COUNTS: Shader = shader!(
+    "stencil counts",
+    "shared/frame.wgsl",
+    "shared/colour.wgsl",
+    "shared/false_colour.wgsl",
+    "stencil_counts.wgsl"
+);
+/// Depth in the faces of a shadow map.
+pub(in crate::render) const MAP_FACES: Shader = shader!(
+    "map faces",
+    "shared/colour.wgsl",
+    "shared/light_sample.wgsl",
+    "shared/one_light.wgsl",
+    "shared/shadow_map.wgsl",
+    "shared/map_lookup.wgsl",
+    "shared/visibility_map.wgsl",
+    "map_faces.wgsl"
+);
 
 /// Counts from here on have one colour, as in shaders/stencil_counts.wgsl.
 const MOST: u32 = 8;
@@ -38,8 +59,7 @@ impl StencilOverlay {
                 count: None,
             }],
         });
-        let counts =
-            |bits| pipeline(gpu, &shaders::STENCIL_COUNTS, &[None, Some(&layout)], output_format, ("COUNT_BITS", bits));
+        let counts = |bits| pipeline(gpu, &STENCIL_COUNTS, &[None, Some(&layout)], output_format, ("COUNT_BITS", bits));
         Self { volumes: counts(255.0), planar: counts(f64::from(SHADOWS)), layout }
     }
 
@@ -72,9 +92,8 @@ pub struct MapOverlay {
 impl MapOverlay {
     pub fn new(gpu: &Gpu, map_layout: &wgpu::BindGroupLayout, output_format: wgpu::TextureFormat) -> Self {
         let layouts = [None, None, Some(map_layout)];
-        let shows = |is_perspective| {
-            pipeline(gpu, &shaders::MAP_FACES, &layouts, output_format, ("IS_PERSPECTIVE", is_perspective))
-        };
+        let shows =
+            |is_perspective| pipeline(gpu, &MAP_FACES, &layouts, output_format, ("IS_PERSPECTIVE", is_perspective));
         Self { perspective: shows(1.0), orthographic: shows(0.0) }
     }
 
@@ -121,7 +140,7 @@ fn begin<'e>(
 
 fn pipeline(
     gpu: &Gpu,
-    shader: &shaders::Shader,
+    shader: &Shader,
     layouts: &[Option<&wgpu::BindGroupLayout>],
     output_format: wgpu::TextureFormat,
     constant: (&str, f64),
@@ -140,7 +159,7 @@ fn pipeline(
         constants: &[constant, ("TARGET_ENCODES", f64::from(u8::from(output_format.is_srgb())))],
         vertex: None,
         fragment: Some(("fragment", &[Some(target)])),
-        ..PipelineRecipe::new(shader.name, &layout, &shader.module(&gpu.device))
+        ..PipelineRecipe::new(shader.name, &layout, &shader.module(gpu))
     }
     .make(gpu)
 }

@@ -7,10 +7,11 @@ pub use decisions::SampleDecisions;
 
 use std::time::Instant;
 
-use crate::gpu::{Gpu, SceneBuffers, Stopwatch, shaders};
+use crate::gpu::{Gpu, Stopwatch};
+use crate::render::scene::SceneBuffers;
 use crate::render::shadow::cutout_shadow::CutoutShadowPass;
 use crate::render::shadow::depth_prepass::DepthPrepass;
-use crate::render::shadow::direct_light::{self, DirectLightPass, Lit, WHERE_UNSHADOWED};
+use crate::render::shadow::direct_light::{self, DIRECT_LIGHT, DirectLightPass, Lit, WHERE_UNSHADOWED};
 use crate::render::shadow::few_lights::FewLights;
 use crate::render::shadow::light_samples::LightSample;
 use crate::render::shadow::light_targets::LightTargets;
@@ -105,7 +106,7 @@ impl RealTimeLight {
         let sample_layout = light_sample_layout(gpu);
         let layouts = [Some(frame_layout), Some(&sample_layout)];
         let maps = ShadowMapPass::new(gpu);
-        let light = |lit: &Lit| DirectLightPass::new(gpu, &layouts, (&shaders::DIRECT_LIGHT, &[]), samples, lit);
+        let light = |lit: &Lit| DirectLightPass::new(gpu, &layouts, (&DIRECT_LIGHT, &[]), samples, lit);
         Self {
             samples,
             prepass: DepthPrepass::new(gpu, frame_layout, samples),

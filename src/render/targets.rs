@@ -2,7 +2,7 @@
 
 use std::cell::OnceCell;
 
-use super::Gpu;
+use crate::gpu::Gpu;
 
 /// Radiance times pre-exposure, premultiplied by coverage; blendable and multisampled everywhere.
 pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;

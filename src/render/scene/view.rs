@@ -4,10 +4,11 @@ use std::ops::Range;
 
 use glam::Vec4;
 
-use super::scene_buffers::Batch;
+use super::SceneBuffers;
+use super::buffers::Batch;
 use super::tiled_mesh::TiledMesh;
-use super::{Gpu, SceneBuffers};
 use crate::base::bounds::{Bounds, Frustum};
+use crate::gpu::Gpu;
 
 /// Neighbouring triangles of one batch.
 #[derive(Clone, Debug)]
@@ -112,7 +113,7 @@ mod tests {
     use glam::camera::rh::view::look_at_mat4;
 
     use super::*;
-    use crate::gpu::scene_order::order;
+    use crate::render::scene::order::order;
     use crate::scene::builtin;
 
     #[test]

@@ -5,14 +5,14 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
-use super::Gpu;
-use super::coarse::{CoarseMesh, Tile};
-use super::scene_buffers::{Batch, GpuVertex};
-use super::scene_order::{Drawn, Order, index_buffer};
-use super::scene_view::{Chunk, Outlook};
+use super::buffers::{Batch, GpuVertex};
+use super::order::{Drawn, Order, index_buffer};
 use super::tiles::Tiles;
 use super::vertex_order::VertexOrder;
+use super::view::{Chunk, Outlook};
+use crate::baked::coarse::{CoarseMesh, Tile};
 use crate::base::ids::TriangleId;
+use crate::gpu::Gpu;
 use crate::scene::{AlphaMode, Scene, Triangle, edge_cross};
 
 /// The coarse mesh of a bake.

@@ -18,7 +18,7 @@ use coarsen::{Whole, coarsen};
 use tiles::{Filling, Layout};
 
 /// The element of texels without one. As in shaders/fill_tiles.wgsl.
-pub(super) const NOTHING: u32 = u32::MAX;
+pub(crate) const NOTHING: u32 = u32::MAX;
 /// Texels across and down at most: 256 MiB of light.
 const MAX_SIDE: u32 = 5792;
 /// Texels for each element at most: more give fewer triangles, which hardly draw sooner.
@@ -27,7 +27,7 @@ const MAX_TEXELS_PER_ELEMENT: u64 = 32;
 const WORTH_WHILE: f32 = 0.75;
 
 /// A mesh of fewer triangles over the vertices of a scene.
-pub(super) struct CoarseMesh {
+pub(crate) struct CoarseMesh {
     /// Triangles of the scene's vertices; first those with tiles, then triangles of the scene as they are.
     pub triangles: Vec<Triangle>,
     /// The tiles of those that have one.
@@ -44,7 +44,7 @@ pub(super) struct CoarseMesh {
 
 /// Where in the texture the light of a triangle is.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Tile {
+pub(crate) struct Tile {
     /// The texel of its first corner.
     pub origin: UVec2,
     /// Texels from there to its second corner, across, and to its third, down.
@@ -52,7 +52,7 @@ pub(super) struct Tile {
 }
 
 /// An element in a tile.
-pub(super) struct ElementTexels {
+pub(crate) struct ElementTexels {
     /// Its vertices in the scene.
     pub vertices: [u32; 3],
     /// The texels of its corners.

@@ -2,10 +2,10 @@
 
 use wgpu::util::DeviceExt;
 
-use super::Gpu;
-use super::scene_buffers::{Batch, Faces};
-use super::scene_view::Chunk;
+use super::buffers::{Batch, Faces};
+use super::view::Chunk;
 use crate::base::ids::TriangleId;
+use crate::gpu::Gpu;
 use crate::scene::chunks::{CHUNK, chunk_bounds, spatial_order};
 use crate::scene::{AlphaMode, Scene, Triangle};
 

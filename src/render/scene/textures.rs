@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use wgpu::util::DeviceExt;
 
-use super::Gpu;
 use super::mip::{Encoding, Level, mip_chain};
+use crate::gpu::Gpu;
 use crate::scene::{Image, Sampler, Scene, TextureSlot, Wrap};
 
 /// Samples along the longer axis of a pixel's footprint.

@@ -4,9 +4,9 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
-use super::Gpu;
 use super::mip::Encoding;
 use super::textures::Textures;
+use crate::gpu::Gpu;
 use crate::scene::{AlphaMode, Material, Scene, TextureSlot};
 
 /// `Material` of shaders/shared/material.wgsl.
@@ -125,7 +125,8 @@ fn bind_group(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::shaders::{SURFACE, struct_layout};
+    use crate::gpu::shader::struct_layout;
+    use crate::render::surface::SURFACE;
     use std::mem::offset_of;
 
     #[test]

@@ -9,17 +9,17 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 use wgpu::util::DeviceExt;
 
-use super::Gpu;
-use super::coarse::CoarseMesh;
-use super::material_buffers::material_bind_groups;
-use super::scene_order::{Order, index_buffer, order};
-use super::scene_view::Chunk;
+use super::materials::material_bind_groups;
+use super::order::{Order, index_buffer, order};
 use super::tiled_mesh::TiledMesh;
 use super::tiles::Tiles;
 use super::vertex_light::LightBuffer;
 use super::vertex_order::VertexOrder;
+use super::view::Chunk;
+use crate::baked::coarse::CoarseMesh;
 use crate::baked::{BakedScene, VertexLight};
 use crate::base::ids::MaterialId;
+use crate::gpu::Gpu;
 use crate::scene::{AlphaMode, Scene, Vertex};
 
 /// Half floats, of which HDR textures are made, hold this and four times as much.

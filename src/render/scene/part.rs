@@ -1,7 +1,8 @@
 //! A part of a scene that is on the device: some triangles are left out, everything else is shared.
 
-use super::scene_order::{Order, index_buffer, order};
-use super::{Gpu, SceneBuffers};
+use super::SceneBuffers;
+use super::order::{Order, index_buffer, order};
+use crate::gpu::Gpu;
 use crate::scene::{Scene, Triangle};
 
 impl SceneBuffers {

@@ -6,11 +6,11 @@ use bytemuck::{Pod, Zeroable};
 use glam::{UVec2, Vec3};
 use wgpu::util::DeviceExt;
 
-use super::Gpu;
-use super::coarse::CoarseMesh;
-use super::targets::HDR_FORMAT;
 use super::vertex_light::LightVersion;
 use super::vertex_order::VertexOrder;
+use crate::baked::coarse::CoarseMesh;
+use crate::gpu::Gpu;
+use crate::render::targets::HDR_FORMAT;
 
 /// The light of tiles, and what it is made from.
 pub struct Tiles {
@@ -101,8 +101,9 @@ impl Tiles {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gpu::coarse::NOTHING;
-    use crate::gpu::shaders::{FILL_TILES, constant, struct_layout};
+    use crate::baked::coarse::NOTHING;
+    use crate::gpu::shader::{constant, struct_layout};
+    use crate::render::light_tiles::FILL_TILES;
 
     #[test]
     fn tiles_that_a_device_cannot_bind_are_not_made() {

@@ -5,8 +5,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::Vec3;
 
-use super::{Gpu, SceneBuffers};
+use super::SceneBuffers;
 use crate::baked::VertexLight;
+use crate::gpu::Gpu;
 
 /// Irradiance on the device: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in their order there.
 #[derive(Clone)]
