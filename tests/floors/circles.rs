@@ -1,0 +1,48 @@
+//! Circles of files that use each other.
+
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
+
+use super::imports::Uses;
+
+/// Files that use each other in a ring; the last uses the first.
+pub type Circle = Vec<String>;
+
+/// A shortest circle through each file that is on one, without those that hold no file that a shorter one lacks.
+pub fn circles(uses: &Uses) -> Vec<Circle> {
+    let mut all: Vec<Circle> = uses.keys().filter_map(|file| shortest_circle(uses, file)).collect();
+    all.sort_by_key(Vec::len);
+    let mut covered = BTreeSet::new();
+    all.retain(|circle| circle.iter().fold(false, |new, file| covered.insert(file.clone()) || new));
+    all
+}
+
+/// The shortest way from `start` back to itself, breadth first.
+fn shortest_circle(uses: &Uses, start: &str) -> Option<Circle> {
+    let mut reached_from: BTreeMap<&str, &str> = BTreeMap::new();
+    let mut waiting = VecDeque::from([start]);
+    while let Some(file) = waiting.pop_front() {
+        for next in uses.get(file).into_iter().flat_map(BTreeMap::keys) {
+            if next == start {
+                let mut circle: Circle =
+                    std::iter::successors(Some(file), |&at| reached_from.get(at).copied()).map(str::to_owned).collect();
+                circle.reverse();
+                return Some(circle);
+            }
+            if !reached_from.contains_key(next.as_str()) {
+                reached_from.insert(next, file);
+                waiting.push_back(next);
+            }
+        }
+    }
+    None
+}
+
+/// The circle as a chain with the names that tie it.
+pub fn describe(circle: &Circle, uses: &Uses) -> String {
+    let next = |at: usize| &circle[(at + 1) % circle.len()];
+    let steps = circle.iter().enumerate().map(|(at, file)| {
+        let names: Vec<&str> = uses[file][next(at)].iter().map(String::as_str).collect();
+        format!("{file} -[{}]-> ", names.join(", "))
+    });
+    format!("circle: {}{}", steps.collect::<String>(), circle[0])
+}

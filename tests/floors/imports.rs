@@ -1,0 +1,171 @@
+//! Which file of the crate uses which other: each path is followed through re-exports to the file that defines its item.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::names::{Names, Path};
+
+/// Text of each file by its path below src/.
+pub type Sources = BTreeMap<String, String>;
+
+/// Names that tie one file to another.
+pub type Ties = BTreeSet<String>;
+
+/// For each file those that it uses.
+pub type Uses = BTreeMap<String, BTreeMap<String, Ties>>;
+
+/// A crate's files with what they define and name.
+pub struct Imports {
+    files: BTreeMap<String, Names>,
+    by_module: BTreeMap<Path, String>,
+    /// Items that a file names in its code or imports for it.
+    pub used: Uses,
+    /// Items that a file only passes on with `pub use`.
+    pub passed_on: Uses,
+}
+
+/// Where a path ends.
+enum Target {
+    /// In this item of this file.
+    Item { file: String, name: String },
+    /// At this module.
+    Module(Path),
+}
+
+impl Imports {
+    pub fn of(sources: &Sources) -> Self {
+        let mut files: BTreeMap<String, Names> =
+            sources.iter().map(|(file, text)| (file.clone(), Names::of(text))).collect();
+        remove_tests(&mut files);
+        let by_module = files.keys().map(|file| (module_of(file), file.clone())).collect();
+        let mut imports = Self { files, by_module, used: Uses::new(), passed_on: Uses::new() };
+        (imports.used, imports.passed_on) = imports.follow_all();
+        imports
+    }
+
+    fn follow_all(&self) -> (Uses, Uses) {
+        let (mut used, mut passed_on) = (Uses::new(), Uses::new());
+        for (file, names) in &self.files {
+            let module = module_of(file);
+            for import in &names.imports {
+                let uses = if import.public { &mut passed_on } else { &mut used };
+                match self.resolve(&module, &import.path, 0) {
+                    Some(Target::Item { file: target, name }) => tie(uses, file, &target, &name),
+                    Some(Target::Module(target)) if import.name == "*" => {
+                        tie(uses, file, &self.by_module[&target], "*")
+                    }
+                    _ => {}
+                }
+            }
+            for mention in &names.mentions {
+                if let Some(Target::Item { file: target, name }) = self.resolve(&module, mention, 0) {
+                    tie(&mut used, file, &target, &name);
+                }
+            }
+        }
+        (used, passed_on)
+    }
+
+    /// Follows `path` as it stands in `module`; `None` if it leads out of the crate or to a local name.
+    fn resolve(&self, module: &Path, path: &[String], depth: usize) -> Option<Target> {
+        const DEEPEST: usize = 16; // A name that imports itself, as `use image;` does, leads in a ring.
+        let (first, rest) = path.split_first()?;
+        if depth > DEEPEST {
+            return None;
+        }
+        match first.as_str() {
+            "crate" | "hemicube" => return self.descend(Vec::new(), rest, depth),
+            "self" => return self.descend(module.clone(), rest, depth),
+            "super" => {
+                let parent = module[..module.len().checked_sub(1)?].to_vec();
+                return if rest.first().is_some_and(|next| next == "super") {
+                    self.resolve(&parent, rest, depth)
+                } else {
+                    self.descend(parent, rest, depth)
+                };
+            }
+            _ => {}
+        }
+        let names = &self.files[self.by_module.get(module)?];
+        let is_known =
+            names.has(first) || self.child(module, first).is_some() || self.glob_with(module, first, depth).is_some();
+        if is_known { self.descend(module.clone(), path, depth) } else { None }
+    }
+
+    /// Follows `rest` downward from `module`.
+    fn descend(&self, module: Path, rest: &[String], depth: usize) -> Option<Target> {
+        let file = self.by_module.get(&module)?;
+        let Some((next, after)) = rest.split_first() else {
+            return Some(Target::Module(module));
+        };
+        let names = &self.files[file];
+        let item = |file: &String| Some(Target::Item { file: file.clone(), name: next.clone() });
+        if let Some(child) = self.child(&module, next)
+            && (!after.is_empty() || self.is_module_only(&module, next))
+        {
+            return self.descend(child, after, depth);
+        }
+        if names.defined.contains(next) {
+            return item(file);
+        }
+        if let Some(import) = names.import(next) {
+            let path: Path = import.path.iter().chain(after).cloned().collect();
+            return self.resolve(&module, &path, depth + 1);
+        }
+        if let Some(beyond) = self.glob_with(&module, next, depth) {
+            return self.descend(beyond, rest, depth + 1);
+        }
+        // A macro of the crate root, or an item that a macro makes.
+        let exports = |names: &Names| module.is_empty() && names.exported_macros.contains(next);
+        item(self.files.iter().find(|(_, names)| exports(names)).map_or(file, |(file, _)| file))
+    }
+
+    fn child(&self, module: &Path, name: &str) -> Option<Path> {
+        let child: Path = module.iter().cloned().chain([name.to_owned()]).collect();
+        self.by_module.contains_key(&child).then_some(child)
+    }
+
+    /// Whether no item of `module` shares the name of its module `name`: a function may be called as its file is.
+    fn is_module_only(&self, module: &Path, name: &str) -> bool {
+        self.files[&self.by_module[module]].import(name).is_none()
+    }
+
+    /// The module whose names `module` imports with `*`, if it has `name`.
+    fn glob_with(&self, module: &Path, name: &str, depth: usize) -> Option<Path> {
+        let names = &self.files[self.by_module.get(module)?];
+        names.globs().find_map(|glob| match self.resolve(module, &glob.path, depth + 1) {
+            Some(Target::Module(target)) if target != *module => {
+                self.files[&self.by_module[&target]].has(name).then_some(target)
+            }
+            _ => None,
+        })
+    }
+}
+
+fn tie(uses: &mut Uses, file: &str, target: &str, name: &str) {
+    if file != target {
+        uses.entry(file.to_owned()).or_default().entry(target.to_owned()).or_default().insert(name.to_owned());
+    }
+}
+
+/// The path of the module that `file` is.
+fn module_of(file: &str) -> Path {
+    let stem = file.trim_end_matches(".rs");
+    let stem = stem.strip_suffix("mod").filter(|rest| rest.ends_with('/')).unwrap_or(stem);
+    let is_root = stem == "lib";
+    stem.split('/').filter(|part| !part.is_empty() && !is_root).map(str::to_owned).collect()
+}
+
+/// Removes the modules that exist in tests only, with all below them.
+fn remove_tests(files: &mut BTreeMap<String, Names>) {
+    let tests: Vec<Path> = files
+        .iter()
+        .flat_map(|(file, names)| {
+            let module = module_of(file);
+            names.test_modules.iter().map(move |name| module.iter().cloned().chain([name.clone()]).collect())
+        })
+        .collect();
+    let is_test = |module: &Path| {
+        module.iter().any(|part| part == "tests") || tests.iter().any(|test: &Path| module.starts_with(test))
+    };
+    files.retain(|file, _| !is_test(&module_of(file)));
+}

@@ -1,0 +1,145 @@
+//! The rules of the house; each returns one line for each breach.
+
+use std::collections::BTreeMap;
+
+use super::circles::{circles, describe};
+use super::imports::{Imports, Sources, Uses};
+use super::tokens::{text_at, tokens};
+
+/// Height of each folder directly below src/. A file uses lower folders and its own; equals never use each other.
+const FLOORS: [(&str, f32); 15] = [
+    ("base", 0.0),
+    ("scene", 1.0),
+    ("gpu", 1.0),
+    ("patch", 2.0),
+    ("trace", 2.0),
+    // The coarse mesh undoes what `patch` has cut.
+    ("baked", 2.5),
+    ("form_factor", 3.0),
+    ("lightmap", 3.0),
+    ("raytrace", 3.0),
+    ("render", 3.0),
+    ("radiosity", 4.0),
+    ("bake", 5.0),
+    ("measure", 5.0),
+    ("viewer", 6.0),
+    ("cli", 7.0),
+];
+
+/// Floors inside of a folder: names of its files and folders, the lowest first; those of one floor never use each other.
+/// What is not named here stands above all.
+pub type Rooms<'a> = (&'a str, &'a [&'a [&'a str]]);
+
+pub const ROOMS: &[Rooms<'_>] = &[];
+
+/// Where wgpu may be named.
+const WGPU_FOLDERS: [&str; 4] = ["gpu/", "form_factor/hemicube/", "render/", "viewer/"];
+
+/// Entrances: they see all floors.
+const ENTRANCES: [&str; 2] = ["lib.rs", "main.rs"];
+
+/// Code files beside each other in one folder.
+const MOST_FILES: usize = 15;
+
+/// Extensions of code files.
+pub const CODE: [&str; 5] = ["rs", "wgsl", "py", "mjs", "sh"];
+
+/// Imports of a folder that is not lower.
+pub fn upward_imports(imports: &Imports) -> Vec<String> {
+    let height = |part: &str| FLOORS.iter().find(|(known, _)| *known == part).map(|&(_, height)| height);
+    let mut found = Vec::new();
+    for (file, target, names) in ties(&[&imports.used, &imports.passed_on]) {
+        if ENTRANCES.contains(&file) {
+            continue;
+        }
+        let (part, below) = (house_part(file), house_part(target));
+        if part != below && height(part).is_none_or(|part| height(below).is_none_or(|below| below >= part)) {
+            found.push(format!("{file} uses {names} of {target}, and {below} is not below {part}"));
+        }
+    }
+    found
+}
+
+/// Files in a folder that stands on no floor.
+pub fn homeless(sources: &Sources) -> Vec<String> {
+    let is_homeless = |file: &&String| {
+        !ENTRANCES.contains(&file.as_str()) && FLOORS.iter().all(|(part, _)| *part != house_part(file))
+    };
+    sources.keys().filter(is_homeless).map(|file| format!("{file} stands on no floor")).collect()
+}
+
+/// Imports of a room that is not lower, inside of the folders that `rooms` divides.
+pub fn upward_imports_in_rooms(imports: &Imports, rooms: &[Rooms<'_>]) -> Vec<String> {
+    let mut found = Vec::new();
+    for (file, target, names) in ties(&[&imports.used, &imports.passed_on]) {
+        for (folder, floors) in rooms {
+            let height = |room: &str| floors.iter().position(|floor| floor.contains(&room)).unwrap_or(floors.len());
+            let (Some(room), Some(below)) = (room_in(file, folder), room_in(target, folder)) else {
+                continue;
+            };
+            let is_free = height(room) == floors.len();
+            if room != below && !is_free && height(below) >= height(room) {
+                found.push(format!("{file} uses {names} of {target}: in {folder}, {below} is not below {room}"));
+            }
+        }
+    }
+    found
+}
+
+/// Circles of files.
+pub fn file_circles(imports: &Imports) -> Vec<(Vec<String>, String)> {
+    let mut used = imports.used.clone();
+    used.retain(|file, _| !ENTRANCES.contains(&file.as_str()));
+    circles(&used).into_iter().map(|circle| (circle.clone(), describe(&circle, &used))).collect()
+}
+
+/// Lines that name wgpu where it does not belong.
+pub fn misplaced_wgpu(sources: &Sources) -> Vec<String> {
+    let mut found = Vec::new();
+    for (file, text) in sources.iter().filter(|(file, _)| !WGPU_FOLDERS.iter().any(|folder| file.starts_with(folder))) {
+        let tokens = tokens(text);
+        for (at, token) in tokens.iter().enumerate() {
+            if matches!(token.text.as_str(), "wgpu" | "egui_wgpu") && text_at(&tokens, at + 1) == "::" {
+                found.push(format!("{file}:{}: wgpu is named outside of {WGPU_FOLDERS:?}", token.line));
+            }
+        }
+    }
+    found
+}
+
+/// Folders with too many code files beside each other, and their number; `files` are paths below the root of the project.
+pub fn crowded<'a>(files: impl IntoIterator<Item = &'a str>) -> Vec<(String, usize)> {
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for file in files {
+        let (folder, name) = file.rsplit_once('/').unwrap_or(("", file));
+        if name.rsplit_once('.').is_some_and(|(_, extension)| CODE.contains(&extension)) {
+            *counts.entry(folder).or_default() += 1;
+        }
+    }
+    counts
+        .into_iter()
+        .filter(|&(_, count)| count > MOST_FILES)
+        .map(|(folder, count)| (folder.to_owned(), count))
+        .collect()
+}
+
+/// Each (file, file that it uses, names that tie them).
+fn ties<'a>(uses: &[&'a Uses]) -> Vec<(&'a str, &'a str, String)> {
+    let mut all = Vec::new();
+    for (file, targets) in uses.iter().flat_map(|uses| uses.iter()) {
+        for (target, names) in targets {
+            all.push((file.as_str(), target.as_str(), names.iter().cloned().collect::<Vec<_>>().join(", ")));
+        }
+    }
+    all
+}
+
+/// Folder, or file stem, directly below src/.
+fn house_part(file: &str) -> &str {
+    file.split('/').next().unwrap_or(file).trim_end_matches(".rs")
+}
+
+/// Folder, or file stem, directly below `folder`, if the file lies there.
+fn room_in<'a>(file: &'a str, folder: &str) -> Option<&'a str> {
+    file.strip_prefix(folder)?.strip_prefix('/').map(house_part)
+}
