@@ -18,7 +18,7 @@ use hemicube::baked::{BakedScene, VertexLight};
 use hemicube::base::ids::GroupId;
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Exposure, Look, Renderer, ShadowScene, ShadowSettings, ShadowTechnique, View};
+use hemicube::render::{Exposure, RenderSettings, Renderer, ShadowScene, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::{Camera, Light, LightKind, Scene, builtin, gltf};
 
 const SIZE: [u32; 2] = [1280, 720];
@@ -123,12 +123,13 @@ impl Stage {
     fn milliseconds(&self, gpu: &Gpu, settings: Option<&ShadowSettings>) -> f64 {
         let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, 1);
         renderer.cast_shadows(Some(Arc::clone(&self.shadows)));
-        let look = Look { shadows: settings.cloned(), exposure: Exposure::Ev(0.0), ..Look::default() };
+        let render_settings =
+            RenderSettings { shadows: settings.cloned(), exposure: Exposure::Ev(0.0), ..RenderSettings::default() };
         let mut best = f64::INFINITY;
         for frame in 0..=FRAMES {
             let start = Instant::now();
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            renderer.draw(gpu, &mut encoder, &self.target, SIZE, &self.buffers, &self.view, &look);
+            renderer.draw(gpu, &mut encoder, &self.target, SIZE, &self.buffers, &self.view, &render_settings);
             gpu.queue.submit([encoder.finish()]);
             gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
             if frame > 0 {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use hemicube::baked::BakedScene;
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Look, ShadowScene, ShadowSettings, ShadowTechnique, View};
+use hemicube::render::{RenderSettings, ShadowScene, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::builtin;
 use hemicube::viewer::canvas::Canvas;
 use hemicube::viewer::sight::{Comparison, Detail, Rival, Sight};
@@ -21,7 +21,7 @@ fn sight(gpu: &Gpu, comparison: Option<Comparison>) -> Sight {
         scene: Arc::new(SceneBuffers::new(gpu, &dark)),
         shadows: Arc::new(ShadowScene::new(gpu, Arc::new(dark.scene))),
         light: 0,
-        look: Look { shadows: Some(settings.clone()), ..Look::default() },
+        settings: RenderSettings { shadows: Some(settings.clone()), ..RenderSettings::default() },
         rival: comparison.map(|comparison| Rival { settings, comparison }),
         overlay: None,
         size: [32; 2],
@@ -65,7 +65,7 @@ fn shadows_that_are_switched_off_give_their_textures_back() {
     let mut num_gathering_with = |technique| {
         let mut shown = sight(gpu, None);
         shown.size = size;
-        shown.look.shadows = technique;
+        shown.settings.shadows = technique;
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
         canvas.draw(gpu, &mut encoder, shown, Detail::Plain, None);
         gpu.queue.submit([encoder.finish()]);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use hemicube::baked::{BakedScene, VertexLight};
-use hemicube::render::{Exposure, Look, Raster, ToneMap, compare, picture};
+use hemicube::render::{Exposure, Raster, RenderSettings, ToneMap, compare, picture};
 use hemicube::scene::Scene;
 use hemicube::scene::gltf::{LoadOptions, from_slice, load, load_with};
 
@@ -45,14 +45,14 @@ fn scene(name: &str) -> Scene {
 fn shown(scene: Scene) -> Option<Raster> {
     let camera = scene.cameras[0].clone();
     let baked = BakedScene { light: VertexLight::dark(0, scene.vertices.len()), scene };
-    let look = Look {
+    let settings = RenderSettings {
         ambient: Vec3::splat(0.5),
         exposure: Exposure::Ev(0.0),
         tone_map: ToneMap::Linear,
         background: Vec3::ZERO,
-        ..Look::default()
+        ..RenderSettings::default()
     };
-    let picture = picture(gpu()?, &baked, &camera, SIZE, &look).unwrap();
+    let picture = picture(gpu()?, &baked, &camera, SIZE, &settings).unwrap();
     Some(Raster::of(&picture, hemicube::render::FileKind::Radiance))
 }
 

@@ -7,7 +7,9 @@ use hemicube::base::ids::{GroupId, InstanceId};
 use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Look, LuxScale, Mark, Overlay, OverlayPass, Picture, Shading, View, picture_of, turbo};
+use hemicube::render::{
+    LuxScale, Mark, Overlay, OverlayPass, Picture, RenderSettings, Shading, View, picture_of, turbo,
+};
 use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
 use crate::support::device::gpu;
@@ -16,13 +18,13 @@ use crate::support::screen::screen;
 
 const SIZE: u32 = 64;
 
-fn false_colour(lux_scale: LuxScale) -> Look {
-    Look { shading: Shading::FalseColour, lux_scale, background: Vec3::ZERO, ..Look::default() }
+fn false_colour(lux_scale: LuxScale) -> RenderSettings {
+    RenderSettings { shading: Shading::FalseColour, lux_scale, background: Vec3::ZERO, ..RenderSettings::default() }
 }
 
-fn drawn(gpu: &Gpu, quads: &Quads, look: &Look) -> Picture {
+fn drawn(gpu: &Gpu, quads: &Quads, settings: &RenderSettings) -> Picture {
     let scene = SceneBuffers::new(gpu, &quads.baked);
-    picture_of(gpu, &scene, &square_camera(), [SIZE; 2], look, 1).expect("a picture")
+    picture_of(gpu, &scene, &square_camera(), [SIZE; 2], settings, 1).expect("a picture")
 }
 
 fn pixel(picture: &Picture, x: u32, y: u32) -> [u8; 3] {
@@ -67,7 +69,7 @@ fn a_line_lies_where_the_scale_is_cut() {
 
 /// A picture of `quads` in false colours with an overlay on it.
 fn marked(gpu: &Gpu, quads: &Quads, lines: &[Mark], triangles: &[Mark]) -> Picture {
-    let look = false_colour(LuxScale { num_parts: 0, ..LuxScale::default() });
+    let settings = false_colour(LuxScale { num_parts: 0, ..LuxScale::default() });
     let scene = SceneBuffers::new(gpu, &quads.baked);
     let target = screen(gpu, [SIZE; 2], TextureFormat::Rgba8Unorm);
     let view = View::from_camera(&square_camera(), 1.0);
@@ -76,8 +78,8 @@ fn marked(gpu: &Gpu, quads: &Quads, lines: &[Mark], triangles: &[Mark]) -> Pictu
     let mut overlay = OverlayPass::new(gpu, TextureFormat::Rgba8Unorm);
     let marks = Overlay::new(gpu, lines, triangles);
     let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor { label: None });
-    renderer.draw(gpu, &mut encoder, &target_view, [SIZE; 2], &scene, &view, &look);
-    overlay.draw(gpu, &mut encoder, &target_view, [SIZE; 2], &scene, &view, &look, &marks);
+    renderer.draw(gpu, &mut encoder, &target_view, [SIZE; 2], &scene, &view, &settings);
+    overlay.draw(gpu, &mut encoder, &target_view, [SIZE; 2], &scene, &view, &settings, &marks);
     gpu.queue.submit([encoder.finish()]);
     let display = read_texture(gpu, &target, 4).expect("read");
     Picture { width: SIZE, height: SIZE, radiance: Vec::new(), display }
@@ -117,8 +119,9 @@ fn a_hidden_instance_is_not_drawn_and_the_rest_keeps_its_light() {
     quads.baked.scene.triangles[2..].iter_mut().for_each(|triangle| triangle.instance = InstanceId(1));
     let all = SceneBuffers::new(gpu, &quads.baked);
     let part = all.part(gpu, &quads.baked.scene, |triangle| triangle.instance != InstanceId(1));
-    let look = false_colour(LuxScale { num_parts: 0, ..LuxScale::default() });
-    let picture = |scene: &SceneBuffers| picture_of(gpu, scene, &square_camera(), [SIZE; 2], &look, 1).expect("drawn");
+    let settings = false_colour(LuxScale { num_parts: 0, ..LuxScale::default() });
+    let picture =
+        |scene: &SceneBuffers| picture_of(gpu, scene, &square_camera(), [SIZE; 2], &settings, 1).expect("drawn");
     let (whole, half) = (picture(&all), picture(&part));
     assert_eq!(pixel(&half, SIZE / 4, SIZE / 2), pixel(&whole, SIZE / 4, SIZE / 2));
     assert!(pixel(&half, 3 * SIZE / 4, SIZE / 2).iter().all(|&channel| channel < 3));

@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::Result;
 use glam::Vec3;
 
-use super::render::{RenderArgs, light, look};
+use super::render::{RenderArgs, light, render_settings};
 use crate::bake::patch_view::patch_view;
 use crate::base::sampling::{hash, unit_float};
 use crate::gpu::Gpu;
@@ -35,7 +35,7 @@ pub(super) fn view_from_patch(scene: Scene, at: &MeasuringPoint, args: &RenderAr
     // Seed 0: the same place gives the same picture.
     let viewpoint = Sites::new(&baked.scene).viewpoint(at.position, at.normal, 0);
     let view = patch_view(&gpu, &baked, &viewpoint, SIZE_PX)?;
-    develop(view.size, view.radiance, &look(args, &baked)).save(&args.output)?;
+    develop(view.size, view.radiance, &render_settings(args, &baked)).save(&args.output)?;
     let colours: Vec<Vec3> = view.items.iter().map(|item| item.map_or(Vec3::ZERO, item_colour)).collect();
     Ok(save_display(&items_path(&args.output), view.size, &colours)?)
 }

@@ -15,7 +15,7 @@ use crate::baked::{self, BakedScene, VertexLight};
 use crate::gpu::Gpu;
 use crate::raytrace::MeasuringPoint;
 use crate::render::picture::check_size;
-use crate::render::{Exposure, FileKind, Look, Picture, Raster, develop, picture};
+use crate::render::{Exposure, FileKind, Picture, Raster, RenderSettings, develop, picture};
 use crate::scene::{Camera, Scene};
 
 /// Options of `hemicube render`.
@@ -126,13 +126,18 @@ pub fn run(args: &RenderArgs, is_quiet: bool) -> Result<()> {
         RendererName::Raster => drawn(scene, &camera, args, is_quiet)?,
         RendererName::TwoPass => {
             let baked = first_pass(scene, args, is_quiet)?;
-            let look = look(args, &baked);
-            let film = args.rays.two_pass(&baked, &camera, args.size.0, args.lighting(), look.ambient, is_quiet)?;
-            develop(film.size(), film.radiance(), &look)
+            let render_settings = render_settings(args, &baked);
+            let film =
+                args.rays.two_pass(&baked, &camera, args.size.0, args.lighting(), render_settings.ambient, is_quiet)?;
+            develop(film.size(), film.radiance(), &render_settings)
         }
         RendererName::Path => {
             let film = args.rays.path_traced(&scene, &camera, args.size.0, args.lighting(), is_quiet)?;
-            develop(film.size(), film.radiance(), &Look { exposure: args.exposure, ..Look::default() })
+            develop(
+                film.size(),
+                film.radiance(),
+                &RenderSettings { exposure: args.exposure, ..RenderSettings::default() },
+            )
         }
     };
     picture.save(&args.output)?;
@@ -144,7 +149,7 @@ fn drawn(scene: Scene, camera: &Camera, args: &RenderArgs, is_quiet: bool) -> Re
     let gpu = Gpu::headless()?;
     check_size(&gpu, args.size.0)?;
     let baked = light(&gpu, scene, args, is_quiet)?;
-    Ok(picture(&gpu, &baked, camera, args.size.0, &look(args, &baked))?)
+    Ok(picture(&gpu, &baked, camera, args.size.0, &render_settings(args, &baked))?)
 }
 
 /// The camera of that name, else of that number; without a wish the first, else one that sees everything.
@@ -187,18 +192,20 @@ fn unbaked(scene: Scene) -> BakedScene {
     baked::gltf::from_scene(scene).unwrap_or_else(BakedScene::dark)
 }
 
-pub(super) fn look(args: &RenderArgs, baked: &BakedScene) -> Look {
-    let all = Look {
+pub(super) fn render_settings(args: &RenderArgs, baked: &BakedScene) -> RenderSettings {
+    let all = RenderSettings {
         exposure: args.exposure,
         shadows: args.shadows.settings(),
         shadow_debug: args.shadows.debug(),
-        ..Look::default()
+        ..RenderSettings::default()
     };
     // Ambient light takes the place of the stored light; shadows bring direct light of their own.
     let shadowed = f32::from(u8::from(all.shadows.is_some()));
     match args.lighting() {
-        Lighting::Direct => Look { indirect: 0.0, ..all },
-        Lighting::Ambient => Look { direct: shadowed, indirect: 0.0, ambient: mean_radiance(&baked.light), ..all },
+        Lighting::Direct => RenderSettings { indirect: 0.0, ..all },
+        Lighting::Ambient => {
+            RenderSettings { direct: shadowed, indirect: 0.0, ambient: mean_radiance(&baked.light), ..all }
+        }
         Lighting::Radiosity | Lighting::IndirectAndDirect => all,
     }
 }

@@ -4,7 +4,7 @@
 
 use glam::Vec3;
 
-use super::{Look, Picture, ToneMap};
+use super::{Picture, RenderSettings, ToneMap};
 use crate::base::colour::{luminance, neutral, srgb_from_linear};
 
 /// The constants of shaders/meter.wgsl.
@@ -19,11 +19,11 @@ const HIGHLIGHT: f32 = 1.5;
 /// A picture of `size` pixels from linear radiance before exposure, premultiplied by the fourth channel, the share of the
 /// pixel that is covered.
 #[must_use]
-pub fn develop(size: [u32; 2], radiance: Vec<[f32; 4]>, look: &Look) -> Picture {
-    let exposure = look.fixed_exposure().unwrap_or_else(|| metered(size, &radiance));
+pub fn develop(size: [u32; 2], radiance: Vec<[f32; 4]>, settings: &RenderSettings) -> Picture {
+    let exposure = settings.fixed_exposure().unwrap_or_else(|| metered(size, &radiance));
     let display = |(number, &pixel): (usize, &[f32; 4])| {
         let at = [number as u32 % size[0], number as u32 / size[0]];
-        display_bytes(pixel, at, exposure, look)
+        display_bytes(pixel, at, exposure, settings)
     };
     let display = radiance.iter().enumerate().flat_map(display).collect();
     Picture { width: size[0], height: size[1], radiance, display }
@@ -65,13 +65,13 @@ fn log2_of_bin(bin: usize) -> f32 {
 }
 
 /// RGBA as displayed: exposure, tone curve, background, sRGB, dither.
-fn display_bytes([r, g, b, coverage]: [f32; 4], at: [u32; 2], exposure: f32, look: &Look) -> [u8; 4] {
+fn display_bytes([r, g, b, coverage]: [f32; 4], at: [u32; 2], exposure: f32, settings: &RenderSettings) -> [u8; 4] {
     let exposed = Vec3::new(r, g, b) * exposure;
-    let toned = match look.tone_map_in_force() {
+    let toned = match settings.tone_map_in_force() {
         ToneMap::Linear => exposed.clamp(Vec3::ZERO, Vec3::ONE),
         ToneMap::Neutral => neutral(exposed),
     };
-    let shown = toned + (1.0 - coverage) * look.background;
+    let shown = toned + (1.0 - coverage) * settings.background;
     let noise = gradient_noise(at);
     let byte = |channel: f32| (srgb_from_linear(channel) * 255.0 + noise).round() as u8;
     [byte(shown.x), byte(shown.y), byte(shown.z), 255]

@@ -13,7 +13,7 @@ use super::surface::{DirectSource, SurfacePass};
 use super::surface_targets::SurfaceTargets;
 use super::tonemap::ToneMapPass;
 use super::weighted_light::WeightedLight;
-use super::{Look, View};
+use super::{RenderSettings, View};
 use crate::gpu::readback::read_buffer;
 use crate::gpu::{Gpu, GpuError, Stopwatch};
 use crate::render::scene::SceneBuffers;
@@ -117,12 +117,20 @@ impl Renderer {
         size: [u32; 2],
         scene: &SceneBuffers,
         view: &View,
-        look: &Look,
+        render_settings: &RenderSettings,
     ) {
-        let (Some(settings), Some(shadows)) = (&look.shadows, &self.shadows) else { return };
-        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
-        let seen = &scene.in_view(gpu, &view.outlook(look));
-        let subject = Subject { frame: &frame, scene, seen, shadows, view, look, watch: self.watch.as_deref() };
+        let (Some(settings), Some(shadows)) = (&render_settings.shadows, &self.shadows) else { return };
+        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, render_settings);
+        let seen = &scene.in_view(gpu, &view.outlook(render_settings));
+        let subject = Subject {
+            frame: &frame,
+            scene,
+            seen,
+            shadows,
+            view,
+            settings: render_settings,
+            watch: self.watch.as_deref(),
+        };
         let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
         live.draw(gpu, encoder, size, subject, settings);
     }
@@ -137,28 +145,28 @@ impl Renderer {
         size: [u32; 2],
         scene: &SceneBuffers,
         view: &View,
-        look: &Look,
+        render_settings: &RenderSettings,
     ) {
         let kept = self.targets.iter().position(|targets| targets.size == size);
         let targets = kept.map(|at| self.targets.remove(at)).unwrap_or_else(|| Targets::new(gpu, size, self.samples));
-        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
+        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, render_settings);
 
         // The light of the vertices, each group as bright as wanted.
-        let stored = self.weighted.of(gpu, encoder, &frame, scene, look).clone();
-        let seen = &scene.in_view(gpu, &view.outlook(look));
+        let stored = self.weighted.of(gpu, encoder, &frame, scene, render_settings).clone();
+        let seen = &scene.in_view(gpu, &view.outlook(render_settings));
         let subject = self.shadows.as_ref().map(|shadows| Subject {
             frame: &frame,
             scene,
             seen,
             shadows,
             view,
-            look,
+            settings: render_settings,
             watch: self.watch.as_deref(),
         });
         let lap =
             |encoder: &mut wgpu::CommandEncoder, name| self.watch.iter().for_each(|watch| watch.lap(encoder, name));
         // Light from the lights themselves, each in its shadows: their number and maps, or irradiance at the pixels.
-        let live = look.shadows.as_ref().zip(subject).map(|(settings, subject)| {
+        let live = render_settings.shadows.as_ref().zip(subject).map(|(settings, subject)| {
             let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
             live.draw(gpu, encoder, size, subject, settings)
         });
@@ -166,22 +174,24 @@ impl Renderer {
             self.live.iter_mut().for_each(RealTimeLight::release_targets);
         }
         // Light from every visible point towards the eye: displayed, or several samples a pixel and their mean.
-        let is_metered = look.fixed_exposure().is_none() && self.followed.is_none();
-        let is_last = self.can_display_at_once(seen, look);
+        let is_metered = render_settings.fixed_exposure().is_none() && self.followed.is_none();
+        let is_last = self.can_display_at_once(seen, render_settings);
         let onto = match (is_last, is_metered) {
-            (true, true) => SurfaceTargets::display_and_luminance(gpu, target, self.output_format, &targets, look),
-            (true, false) => SurfaceTargets::display(target, self.output_format, &targets, look),
+            (true, true) => {
+                SurfaceTargets::display_and_luminance(gpu, target, self.output_format, &targets, render_settings)
+            }
+            (true, false) => SurfaceTargets::display(target, self.output_format, &targets, render_settings),
             (false, _) => SurfaceTargets::radiance(&targets),
         };
         let exposure = self.followed.as_ref().unwrap_or(self.meter.exposure());
         let source = DirectSource::of(live.as_ref());
         if let Some(tiled) = scene.tiled.as_ref().filter(|_| source.shows_tiles()) {
             let lit_by_lights = live.is_some();
-            self.tile_filler.fill(gpu, encoder, &frame, scene, &tiled.tiles, look, &stored, lit_by_lights);
+            self.tile_filler.fill(gpu, encoder, &frame, scene, &tiled.tiles, render_settings, &stored, lit_by_lights);
         }
         let surface = self.surfaces.entry(source);
         let surface = surface.or_insert_with(|| SurfacePass::new(gpu, &self.frame_layout, self.samples, source));
-        surface.draw(gpu, encoder, &onto, &frame, seen, look, &stored, exposure, live.as_ref());
+        surface.draw(gpu, encoder, &onto, &frame, seen, render_settings, &stored, exposure, live.as_ref());
         lap(encoder, "surfaces");
         // The exposure that suits this picture, unless one is given.
         if is_metered {
@@ -196,7 +206,7 @@ impl Renderer {
         }
 
         // What shadows work with.
-        if let (Some(debug), Some(subject)) = (look.shadow_debug, subject) {
+        if let (Some(debug), Some(subject)) = (render_settings.shadow_debug, subject) {
             let pass = self.debug.get_or_insert_with(|| DebugPass::new(gpu, &self.frame_layout, self.output_format));
             pass.draw(gpu, encoder, target, size, subject, debug);
         }
@@ -209,9 +219,9 @@ impl Renderer {
 
     /// Nothing needs the radiance but the screen, and what it shows of one point needs no other: the exposure is given or
     /// that of the last picture, and neither samples nor surfaces are blended.
-    fn can_display_at_once(&self, seen: &SceneBuffers, look: &Look) -> bool {
+    fn can_display_at_once(&self, seen: &SceneBuffers, render_settings: &RenderSettings) -> bool {
         let blends = seen.batches.iter().any(|batch| batch.alpha_mode == AlphaMode::Blend);
-        let is_exposed = look.fixed_exposure().is_some() || self.shows_last_exposure;
+        let is_exposed = render_settings.fixed_exposure().is_some() || self.shows_last_exposure;
         !self.keeps_radiance && self.samples == 1 && is_exposed && !blends
     }
 

@@ -6,8 +6,8 @@ use bytemuck::{Pod, Zeroable};
 use glam::{Mat4, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
-use super::look::MAX_GROUPS;
-use super::{Look, View};
+use super::settings::MAX_GROUPS;
+use super::{RenderSettings, View};
 use crate::base::ids::GroupId;
 use crate::gpu::Gpu;
 use crate::render::scene::SceneBuffers;
@@ -31,24 +31,25 @@ struct FrameUniform {
 }
 
 impl FrameUniform {
-    fn new(scene: &SceneBuffers, view: &View, look: &Look) -> Self {
-        let weight = |group: usize| look.group_weight(GroupId::new(group)).extend(0.0);
+    fn new(scene: &SceneBuffers, view: &View, settings: &RenderSettings) -> Self {
+        let weight = |group: usize| settings.group_weight(GroupId::new(group)).extend(0.0);
         // Light is added up batch by batch, and their mean is shown.
-        let num_batches = 1 + look.shadows.as_ref().and_then(|shadows| shadows.batch).map_or(0, |batch| batch.number);
-        let live = look.direct / (PI * num_batches as f32);
+        let num_batches =
+            1 + settings.shadows.as_ref().and_then(|shadows| shadows.batch).map_or(0, |batch| batch.number);
+        let live = settings.direct / (PI * num_batches as f32);
         Self {
             projection_from_world: view.projection_from_world(),
             group_weights: std::array::from_fn(weight),
-            ambient: look.ambient,
-            direct: look.direct,
-            background: look.background,
-            indirect: look.indirect,
+            ambient: settings.ambient,
+            direct: settings.direct,
+            background: settings.background,
+            indirect: settings.indirect,
             pre_exposure: scene.pre_exposure,
-            exposure: look.fixed_exposure().unwrap_or(0.0),
+            exposure: settings.fixed_exposure().unwrap_or(0.0),
             num_vertices: scene.num_vertices() as u32,
             live,
             eye: view.eye(),
-            lux_scale: look.lux_scale.uniform(),
+            lux_scale: settings.lux_scale.uniform(),
         }
     }
 }
@@ -62,8 +63,8 @@ struct ChoicesStorage {
 }
 
 impl ChoicesStorage {
-    fn new(scene: &SceneBuffers, look: &Look) -> Self {
-        Self { tone_map: look.tone_map_in_force().number(), num_groups: scene.num_groups() as u32 }
+    fn new(scene: &SceneBuffers, settings: &RenderSettings) -> Self {
+        Self { tone_map: settings.tone_map_in_force().number(), num_groups: scene.num_groups() as u32 }
     }
 }
 
@@ -90,13 +91,13 @@ pub fn frame_bind_group(
     layout: &wgpu::BindGroupLayout,
     scene: &SceneBuffers,
     view: &View,
-    look: &Look,
+    settings: &RenderSettings,
 ) -> wgpu::BindGroup {
     let buffer = |contents: &[u8], usage| {
         gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("frame"), contents, usage })
     };
-    let uniform = buffer(bytemuck::bytes_of(&FrameUniform::new(scene, view, look)), wgpu::BufferUsages::UNIFORM);
-    let choices = buffer(bytemuck::bytes_of(&ChoicesStorage::new(scene, look)), wgpu::BufferUsages::STORAGE);
+    let uniform = buffer(bytemuck::bytes_of(&FrameUniform::new(scene, view, settings)), wgpu::BufferUsages::UNIFORM);
+    let choices = buffer(bytemuck::bytes_of(&ChoicesStorage::new(scene, settings)), wgpu::BufferUsages::STORAGE);
     gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("frame"),
         layout,

@@ -5,8 +5,8 @@ use std::sync::PoisonError;
 
 use glam::Vec3;
 
-use super::Look;
-use super::look::MAX_GROUPS;
+use super::RenderSettings;
+use super::settings::MAX_GROUPS;
 use crate::base::ids::GroupId;
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
@@ -48,7 +48,7 @@ impl TileFiller {
         Self { layout, pipeline_layout, pipelines: HashMap::new() }
     }
 
-    /// Makes the tiles of a scene hold its light as `look` and its `frame` weigh it: `weighted` is that of the vertices.
+    /// Makes the tiles of a scene hold its light as `settings` and its `frame` weigh it: `weighted` is that of the vertices.
     #[expect(clippy::too_many_arguments, reason = "where to work (encoder, frame) and on what")]
     pub fn fill(
         &mut self,
@@ -57,11 +57,11 @@ impl TileFiller {
         frame: &wgpu::BindGroup,
         scene: &SceneBuffers,
         tiles: &Tiles,
-        look: &Look,
+        settings: &RenderSettings,
         weighted: &wgpu::Buffer,
         lit_by_lights: bool,
     ) {
-        let wanted = HeldLight { light: scene.light_version(), weights: weights(look, lit_by_lights) };
+        let wanted = HeldLight { light: scene.light_version(), weights: weights(settings, lit_by_lights) };
         let mut held = tiles.held.lock().unwrap_or_else(PoisonError::into_inner);
         if held.as_ref() == Some(&wanted) {
             return;
@@ -97,10 +97,10 @@ impl TileFiller {
 }
 
 /// All numbers on which the sum depends.
-fn weights(look: &Look, lit_by_lights: bool) -> Vec<Vec3> {
-    let direct = if lit_by_lights { 0.0 } else { look.direct };
-    let groups = (0..MAX_GROUPS).map(|group| look.group_weight(GroupId::new(group)));
-    groups.chain([look.ambient, Vec3::new(direct, look.indirect, 0.0)]).collect()
+fn weights(settings: &RenderSettings, lit_by_lights: bool) -> Vec<Vec3> {
+    let direct = if lit_by_lights { 0.0 } else { settings.direct };
+    let groups = (0..MAX_GROUPS).map(|group| settings.group_weight(GroupId::new(group)));
+    groups.chain([settings.ambient, Vec3::new(direct, settings.indirect, 0.0)]).collect()
 }
 
 impl Pipelines {

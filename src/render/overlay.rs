@@ -7,7 +7,7 @@ use glam::Vec3;
 use wgpu::util::DeviceExt;
 
 use super::frame_uniform::{frame_bind_group, frame_layout};
-use super::{Look, View};
+use super::{RenderSettings, View};
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
 use crate::render::scene::SceneBuffers;
@@ -101,15 +101,15 @@ impl OverlayPass {
         size: [u32; 2],
         scene: &SceneBuffers,
         view: &View,
-        look: &Look,
+        settings: &RenderSettings,
         overlay: &Overlay,
     ) {
         let depth = match self.depth.take() {
             Some(last) if last.1 == size => last,
             _ => (depth_target(gpu, size), size),
         };
-        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, look);
-        let seen = scene.in_view(gpu, &view.outlook(look));
+        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, settings);
+        let seen = scene.in_view(gpu, &view.outlook(settings));
         let mut pass = begin(encoder, target, &depth.0);
         pass.set_bind_group(0, &frame, &[]);
         // What hides marks.
@@ -118,7 +118,7 @@ impl OverlayPass {
             pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
         }
         for batch in batches.iter().filter(|batch| batch.alpha_mode != AlphaMode::Blend) {
-            pass.set_pipeline(if batch.faces.are_culled(look.cull_back) { &self.culled } else { &self.two_faced });
+            pass.set_pipeline(if batch.faces.are_culled(settings.cull_back) { &self.culled } else { &self.two_faced });
             pass.set_vertex_buffer(0, seen.vertices_of(batch).slice(..));
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);
         }

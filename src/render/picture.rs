@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use super::{Look, RenderError, Renderer, ShadowScene, View};
+use super::{RenderError, RenderSettings, Renderer, ShadowScene, View};
 use crate::baked::BakedScene;
 use crate::base::colour::srgb_from_linear;
 use crate::base::output::write_whole;
@@ -40,11 +40,11 @@ pub fn picture(
     baked: &BakedScene,
     camera: &Camera,
     size: [u32; 2],
-    look: &Look,
+    settings: &RenderSettings,
 ) -> Result<Picture, GpuError> {
-    let asks = look.shadows.is_some() || look.shadow_debug.is_some();
+    let asks = settings.shadows.is_some() || settings.shadow_debug.is_some();
     let shadows = asks.then(|| Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene.clone()))));
-    picture_in_light(gpu, &SceneBuffers::new(gpu, baked), shadows, camera, size, look, SAMPLES)
+    picture_in_light(gpu, &SceneBuffers::new(gpu, baked), shadows, camera, size, settings, SAMPLES)
 }
 
 /// A picture of a scene that is on the device already, with `samples` samples a pixel, 1 or 4.
@@ -56,10 +56,10 @@ pub fn picture_of(
     scene: &SceneBuffers,
     camera: &Camera,
     size: [u32; 2],
-    look: &Look,
+    settings: &RenderSettings,
     samples: u32,
 ) -> Result<Picture, GpuError> {
-    picture_in_light(gpu, scene, None, camera, size, look, samples)
+    picture_in_light(gpu, scene, None, camera, size, settings, samples)
 }
 
 /// A picture as [`picture_of`], with direct light from the lights of `shadows` where the look asks for it.
@@ -72,7 +72,7 @@ pub fn picture_in_light(
     shadows: Option<Arc<ShadowScene>>,
     camera: &Camera,
     size: [u32; 2],
-    look: &Look,
+    settings: &RenderSettings,
     samples: u32,
 ) -> Result<Picture, GpuError> {
     check_size(gpu, size)?;
@@ -82,7 +82,7 @@ pub fn picture_in_light(
     let target = display_target(gpu, size);
     let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
     let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, scene, &view, look);
+    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, scene, &view, settings);
     gpu.queue.submit([encoder.finish()]);
 
     let display = read_texture(gpu, &target, 4)?;

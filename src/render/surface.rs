@@ -2,7 +2,7 @@
 
 use std::collections::HashMap;
 
-use super::Look;
+use super::RenderSettings;
 use super::shadow::few_lights::{self, Kinds};
 use super::shadow::real_time::LiveLight;
 use super::surface_targets::SurfaceTargets;
@@ -274,7 +274,7 @@ impl SurfacePass {
         targets: &SurfaceTargets<'_>,
         frame: &wgpu::BindGroup,
         scene: &SceneBuffers,
-        look: &Look,
+        settings: &RenderSettings,
         stored: &wgpu::Buffer,
         exposure: &wgpu::Buffer,
         live: Option<&LiveLight>,
@@ -283,7 +283,7 @@ impl SurfacePass {
             Some(LiveLight::Few(lights)) => Some(lights.kinds),
             _ => None,
         };
-        let variant = |batch: &Batch| (Variant::new(batch, look, targets.output), kinds);
+        let variant = |batch: &Batch| (Variant::new(batch, settings, targets.output), kinds);
         if self.pipelines.len() > MOST_PIPELINES {
             self.pipelines.clear();
         }

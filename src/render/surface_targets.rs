@@ -1,6 +1,6 @@
 //! What the surface pass draws into: radiance for all that comes after, or at once what the screen shows.
 
-use super::Look;
+use super::RenderSettings;
 use super::surface_variant::Output;
 use crate::base::colour::srgb_from_linear;
 use crate::gpu::Gpu;
@@ -33,21 +33,21 @@ impl<'a> SurfaceTargets<'a> {
         Self { colour, resolve, depth: &targets.depth, luminance: None, output: Output::Radiance, background }
     }
 
-    /// What is displayed, with the background of `look`, into a target of `format`.
+    /// What is displayed, with the background of `settings`, into a target of `format`.
     pub fn display(
         target: &'a wgpu::TextureView,
         format: wgpu::TextureFormat,
         targets: &'a Targets,
-        look: &Look,
+        settings: &RenderSettings,
     ) -> Self {
         let encoded = |linear| if format.is_srgb() { linear } else { srgb_from_linear(linear) };
-        let [r, g, b] = look.background.to_array().map(|channel| f64::from(encoded(channel.clamp(0.0, 1.0))));
+        let [r, g, b] = settings.background.to_array().map(|channel| f64::from(encoded(channel.clamp(0.0, 1.0))));
         Self {
             colour: target,
             resolve: None,
             depth: &targets.depth,
             luminance: None,
-            output: Output::Display(format, look.tone_map_in_force()),
+            output: Output::Display(format, settings.tone_map_in_force()),
             background: wgpu::Color { r, g, b, a: 1.0 },
         }
     }
@@ -58,10 +58,10 @@ impl<'a> SurfaceTargets<'a> {
         target: &'a wgpu::TextureView,
         format: wgpu::TextureFormat,
         targets: &'a Targets,
-        look: &Look,
+        settings: &RenderSettings,
     ) -> Self {
-        let output = Output::DisplayAndLuminance(format, look.tone_map_in_force());
-        Self { luminance: Some(targets.luminance(gpu)), output, ..Self::display(target, format, targets, look) }
+        let output = Output::DisplayAndLuminance(format, settings.tone_map_in_force());
+        Self { luminance: Some(targets.luminance(gpu)), output, ..Self::display(target, format, targets, settings) }
     }
 
     /// Begins a pass with nothing drawn, infinitely far.

@@ -1,7 +1,7 @@
 //! Pipelines of the surface pass: one for each kind of surface and each way to show it, so that shaders have no branches.
 
 use super::weighted_light::WeightedLight;
-use super::{Look, Shading, ToneMap};
+use super::{RenderSettings, Shading, ToneMap};
 use crate::gpu::Gpu;
 use crate::render::scene::buffers::{Batch, Faces, GpuVertex};
 use crate::render::targets::{DEPTH_FORMAT, HDR_FORMAT, LUMINANCE_FORMAT};
@@ -83,9 +83,9 @@ enum Alpha {
 
 impl Variant {
     /// What a batch needs for a look.
-    pub fn new(batch: &Batch, look: &Look, output: Output) -> Self {
+    pub fn new(batch: &Batch, settings: &RenderSettings, output: Output) -> Self {
         Self {
-            shading: look.shading,
+            shading: settings.shading,
             alpha: match batch.alpha_mode {
                 AlphaMode::Opaque => Alpha::Opaque,
                 AlphaMode::Mask { .. } => Alpha::Mask,
@@ -94,9 +94,9 @@ impl Variant {
             has_textures: batch.has_textures,
             is_unlit: batch.is_unlit,
             is_tiled: batch.is_tiled,
-            culls: batch.faces.are_culled(look.cull_back),
-            has_dark_back: batch.faces == Faces::Front && !look.cull_back,
-            metal_as_diffuse: look.metal_as_diffuse,
+            culls: batch.faces.are_culled(settings.cull_back),
+            has_dark_back: batch.faces == Faces::Front && !settings.cull_back,
+            metal_as_diffuse: settings.metal_as_diffuse,
             output,
         }
     }

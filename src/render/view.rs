@@ -3,7 +3,7 @@
 use glam::camera::rh::proj::directx;
 use glam::{Mat4, Vec3, Vec4};
 
-use super::Look;
+use super::RenderSettings;
 use crate::base::bounds::Frustum;
 use crate::render::scene::view::Outlook;
 use crate::scene::{Camera, Projection};
@@ -48,10 +48,10 @@ impl View {
         Frustum::new(&self.projection_from_world())
     }
 
-    /// What of a scene may be seen, as `look` shows backs.
+    /// What of a scene may be seen, as `settings` shows backs.
     #[must_use]
-    pub fn outlook(&self, look: &Look) -> Outlook {
-        Outlook { frustum: self.frustum(), eye: self.eye(), cull_back: look.cull_back }
+    pub fn outlook(&self, settings: &RenderSettings) -> Outlook {
+        Outlook { frustum: self.frustum(), eye: self.eye(), cull_back: settings.cull_back }
     }
 
     /// Matrix from world space to clip space.

@@ -3,8 +3,8 @@
 
 use glam::Vec3;
 
-use super::Look;
-use super::look::MAX_GROUPS;
+use super::RenderSettings;
+use super::settings::MAX_GROUPS;
 use crate::base::ids::GroupId;
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
@@ -68,18 +68,18 @@ impl WeightedLight {
         Self { layout, pipeline, sum: None }
     }
 
-    /// The vertex buffer of a scene's light as `look` and its `frame` weigh it.
+    /// The vertex buffer of a scene's light as `settings` and its `frame` weigh it.
     pub fn of(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         frame: &wgpu::BindGroup,
         scene: &SceneBuffers,
-        look: &Look,
+        settings: &RenderSettings,
     ) -> &wgpu::Buffer {
         let of = Summed {
             light: scene.light_version(),
-            weights: std::array::from_fn(|group| look.group_weight(GroupId::new(group))),
+            weights: std::array::from_fn(|group| settings.group_weight(GroupId::new(group))),
         };
         let sum = match self.sum.take() {
             Some(last) if last.of == of => last,

@@ -19,7 +19,7 @@ impl Walkthrough {
             has_size && num_batches(settings.light_samples) > 1
         };
         let is_difference = sight.rival.as_ref().is_some_and(|rival| rival.comparison == Comparison::Difference);
-        sight.look.shadows.as_ref().is_some_and(is_soft)
+        sight.settings.shadows.as_ref().is_some_and(is_soft)
             && !is_difference
             && !self.panels.memory.traces_stills
             && self.session.worker().is_none()
@@ -34,7 +34,7 @@ impl Walkthrough {
 
     /// The next light samples, where more are to come.
     pub(super) fn more_light(&mut self, sight: &Sight) -> Option<NewPicture> {
-        let settings = sight.look.shadows.as_ref()?;
+        let settings = sight.settings.shadows.as_ref()?;
         let last = self.screen.canvas.batch().filter(|_| self.adds_up(sight))?;
         let in_batch = |number| ShadowSettings { batch: Some(Batch::whole(number)), ..settings.clone() };
         let length = |number| in_batch(number).samples(&sight.shadows).len();

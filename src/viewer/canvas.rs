@@ -12,7 +12,7 @@ use super::still::Exposed;
 use crate::gpu::stopwatch::Laps;
 use crate::gpu::{Gpu, Stopwatch};
 use crate::render::shadow::Batch;
-use crate::render::{Look, OverlayPass, ShadowSettings};
+use crate::render::{OverlayPass, RenderSettings, ShadowSettings};
 
 /// What has changed since the last picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub enum Change {
     None,
     /// Only the light has been renewed.
     Light,
-    /// The eye, the look or the scene.
+    /// The eye, the settings or the scene.
     Sight,
 }
 
@@ -29,7 +29,7 @@ pub enum Change {
 pub struct Canvas {
     format: wgpu::TextureFormat,
     painter: Painter,
-    /// Draws what the look is compared with; made when that is first asked for.
+    /// Draws what the settings are compared with; made when that is first asked for.
     rival: Option<Painter>,
     differ: Option<Differ>,
     overlay: OverlayPass,
@@ -72,7 +72,7 @@ impl Canvas {
         let Some(Picture { sight: last, .. }) = &self.picture else { return Change::Sight };
         let is_same_sight = Arc::ptr_eq(&last.scene, &sight.scene)
             && last.view == sight.view
-            && last.look == sight.look
+            && last.settings == sight.settings
             && last.rival == sight.rival
             && last.overlay.as_ref().map(Arc::as_ptr) == sight.overlay.as_ref().map(Arc::as_ptr)
             && last.size == sight.size;
@@ -121,10 +121,10 @@ impl Canvas {
 
     /// Adds part of a batch of light samples; the picture stays as it is until the batch is whole.
     pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sight: &Sight, batch: Batch) {
-        self.painter.add_light(gpu, encoder, sight, &in_batch(&sight.look, Some(batch)));
+        self.painter.add_light(gpu, encoder, sight, &in_batch(&sight.settings, Some(batch)));
         if let Some(Rival { settings, .. }) = &sight.rival {
-            let look = Look { shadows: Some(settings.clone()), ..sight.look.clone() };
-            self.painter_of_rival(gpu).add_light(gpu, encoder, sight, &in_batch(&look, Some(batch)));
+            let render_settings = RenderSettings { shadows: Some(settings.clone()), ..sight.settings.clone() };
+            self.painter_of_rival(gpu).add_light(gpu, encoder, sight, &in_batch(&render_settings, Some(batch)));
         }
         self.picture.iter_mut().for_each(|picture| picture.batch = Some(batch));
     }
@@ -156,17 +156,17 @@ impl Canvas {
                     self.differ.get_or_insert_with(|| Differ::new(gpu)).draw(gpu, &shown, &sight, settings, detail);
             }
             rival => {
-                self.painter.draw(gpu, encoder, &view_of(&shown), &sight, &in_batch(&sight.look, batch), detail);
+                self.painter.draw(gpu, encoder, &view_of(&shown), &sight, &in_batch(&sight.settings, batch), detail);
                 self.draw_overlay(gpu, encoder, &shown, &sight);
                 if let Some(Rival { settings, .. }) = rival {
                     let texture = beside_of_last.unwrap_or_else(new_texture);
-                    let look = Look { shadows: Some(settings.clone()), ..sight.look.clone() };
+                    let render_settings = RenderSettings { shadows: Some(settings.clone()), ..sight.settings.clone() };
                     self.painter_of_rival(gpu).draw(
                         gpu,
                         encoder,
                         &view_of(&texture),
                         &sight,
-                        &in_batch(&look, batch),
+                        &in_batch(&render_settings, batch),
                         detail,
                     );
                     self.draw_overlay(gpu, encoder, &texture, &sight);
@@ -193,10 +193,10 @@ impl Canvas {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::Texture,
-        Sight { scene, view, look, size, overlay, .. }: &Sight,
+        Sight { scene, view, settings: render_settings, size, overlay, .. }: &Sight,
     ) {
         if let Some(overlay) = overlay {
-            self.overlay.draw(gpu, encoder, &view_of(target), *size, scene, view, look, overlay);
+            self.overlay.draw(gpu, encoder, &view_of(target), *size, scene, view, render_settings, overlay);
         }
     }
 
@@ -256,9 +256,9 @@ impl Canvas {
     }
 }
 
-fn in_batch(look: &Look, batch: Option<Batch>) -> Look {
-    let shadows = look.shadows.clone().map(|shadows| ShadowSettings { batch, ..shadows });
-    Look { shadows, ..look.clone() }
+fn in_batch(render_settings: &RenderSettings, batch: Option<Batch>) -> RenderSettings {
+    let shadows = render_settings.shadows.clone().map(|shadows| ShadowSettings { batch, ..shadows });
+    RenderSettings { shadows, ..render_settings.clone() }
 }
 
 /// Writes a whole picture of RGBA bytes into a texture.

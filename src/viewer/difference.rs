@@ -29,7 +29,7 @@ impl Differ {
         rival: &ShadowSettings,
         detail: Detail,
     ) -> Option<f32> {
-        let shadows = sight.look.shadows.as_ref()?;
+        let shadows = sight.settings.shadows.as_ref()?;
         let step = if detail == Detail::Sketch { 2 } else { 1 };
         let size = sight.size.map(|side| side.div_ceil(step));
         let case = Case { scene: &sight.scene, shadows: &sight.shadows, view: &sight.view, size };

@@ -98,9 +98,9 @@ impl Walkthrough {
                 })
             }
             Tool::Sight => {
-                let look = self.panels.light.look(true);
+                let render_settings = self.panels.light.render_settings(true);
                 self.errands.send(Kind::Sight, job, move |bearer| {
-                    match PatchSight::from(&gpu, &solved, point, &look, bearer) {
+                    match PatchSight::from(&gpu, &solved, point, &render_settings, bearer) {
                         Ok(Some(sight)) => bearer.bring(Finding::Sight(Arc::new(sight))),
                         Ok(None) => {}
                         Err(error) => bearer.bring(Finding::Written(Err(format!("{error:#}")))),
@@ -226,13 +226,13 @@ impl Walkthrough {
         let Some(place) = &self.session.place else { return };
         let camera = place.traveller.eye.camera();
         let metered_ev = self.screen.canvas.metered_ev(&self.screen.gpu);
-        let look = still::held(&self.panels.light.look(place.is_lit), metered_ev);
+        let render_settings = still::held(&self.panels.light.render_settings(place.is_lit), metered_ev);
         let dials = self.panels.light.groups.clone();
         let (gpu, mesh, solved) = (Arc::clone(&self.screen.gpu), place.mesh.clone(), place.solved.clone());
         let sent = self.errands.send(Kind::Write, self.session.job(), move |bearer| {
             let picture = match (settings.num_rays, &solved) {
-                (1.., Some(solved)) => Ok(output::traced(solved, &dials, &camera, &settings, &look, bearer)),
-                _ => output::drawn(&gpu, &mesh, &camera, settings.size, &look).map(Some),
+                (1.., Some(solved)) => Ok(output::traced(solved, &dials, &camera, &settings, &render_settings, bearer)),
+                _ => output::drawn(&gpu, &mesh, &camera, settings.size, &render_settings).map(Some),
             };
             let written: anyhow::Result<Option<_>> = picture.and_then(|picture| {
                 let Some(picture) = picture else { return Ok(None) };
@@ -250,8 +250,8 @@ impl Walkthrough {
     pub(super) fn take_picture(&mut self) {
         let Some(place) = &self.session.place else { return };
         let camera: Camera = place.traveller.eye.camera();
-        let look = self.panels.light.look(place.is_lit);
-        let drawn = output::drawn(&self.screen.gpu, &place.mesh, &camera, self.screen.size(), &look);
+        let render_settings = self.panels.light.render_settings(place.is_lit);
+        let drawn = output::drawn(&self.screen.gpu, &place.mesh, &camera, self.screen.size(), &render_settings);
         let written = drawn.and_then(|picture| {
             let path = output::PictureSettings::default().next_path(Path::new("."))?;
             picture.save(&path)?;

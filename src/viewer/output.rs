@@ -11,7 +11,7 @@ use super::solved::Solved;
 use crate::base::progress::Progress;
 use crate::gpu::Gpu;
 use crate::raytrace::{Ambient, TwoPassSettings, two_pass};
-use crate::render::{Look, Picture, ShadowScene, develop, picture_in_light};
+use crate::render::{Picture, RenderSettings, ShadowScene, develop, picture_in_light};
 use crate::scene::Camera;
 use crate::trace::Tracer;
 
@@ -59,9 +59,15 @@ pub fn next_name(folder: &Path, stem: &str, ending: &str) -> Option<PathBuf> {
 ///
 /// # Errors
 /// The size is more than the device can draw, or the device was lost.
-pub fn drawn(gpu: &Gpu, mesh: &Mesh, camera: &Camera, size: [u32; 2], look: &Look) -> anyhow::Result<Picture> {
+pub fn drawn(
+    gpu: &Gpu,
+    mesh: &Mesh,
+    camera: &Camera,
+    size: [u32; 2],
+    render_settings: &RenderSettings,
+) -> anyhow::Result<Picture> {
     let shadows: Option<Arc<ShadowScene>> = Some(Arc::clone(&mesh.shadows));
-    Ok(picture_in_light(gpu, &mesh.buffers, shadows, camera, size, look, SAMPLES)?)
+    Ok(picture_in_light(gpu, &mesh.buffers, shadows, camera, size, render_settings, SAMPLES)?)
 }
 
 /// Traces the view, `num_rays` rays a pixel; none where it was cancelled.
@@ -71,7 +77,7 @@ pub fn traced(
     dials: &[GroupDial],
     camera: &Camera,
     settings: &PictureSettings,
-    look: &Look,
+    render_settings: &RenderSettings,
     progress: &dyn Progress,
 ) -> Option<Picture> {
     let baked = solved.dimmed(dials);
@@ -79,7 +85,7 @@ pub fn traced(
     let ambient = Ambient::Indirect { final_gather: 0 };
     let rays = TwoPassSettings { samples: settings.num_rays, ambient, seed: 0 };
     let film = two_pass(&tracer, &baked, camera, settings.size, &rays, progress);
-    (!progress.is_cancelled()).then(|| develop(film.size(), film.radiance(), look))
+    (!progress.is_cancelled()).then(|| develop(film.size(), film.radiance(), render_settings))
 }
 
 /// The eye as an option of `hemicube render`.

@@ -1,16 +1,16 @@
-//! Draws looks into textures, finely or, where the processor draws, quickly.
+//! Draws pictures into textures, finely or, where the processor draws, quickly.
 
 use std::sync::Arc;
 
 use super::quick::Quick;
 use super::sight::{Detail, Sight};
 use crate::gpu::{Gpu, Stopwatch};
-use crate::render::{Look, Renderer, ShadowScene};
+use crate::render::{RenderSettings, Renderer, ShadowScene};
 
 /// Samples a pixel of a fine picture.
 pub const SAMPLES: u32 = 4;
 
-/// Draws looks into textures of one format.
+/// Draws pictures into textures of one format.
 pub struct Painter {
     fine: Renderer,
     /// Where the processor draws.
@@ -58,14 +58,14 @@ impl Painter {
         self.renderers().for_each(|renderer| renderer.time(watch.cloned()));
     }
 
-    /// Draws a sight with a look of its own.
+    /// Draws a sight with settings of its own.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
         sight: &Sight,
-        look: &Look,
+        settings: &RenderSettings,
         detail: Detail,
     ) {
         let shadows: &Arc<ShadowScene> = &sight.shadows;
@@ -77,16 +77,22 @@ impl Painter {
             quick.renderer().show_last_exposure(was_moving && self.is_moving);
         }
         match (&mut self.quick, detail) {
-            (Some(quick), Detail::Sketch) => quick.sketch(gpu, encoder, target, sight, look),
-            (Some(quick), Detail::Plain) => quick.draw(gpu, encoder, target, sight, look),
-            _ => self.fine.draw(gpu, encoder, target, size, scene, view, look),
+            (Some(quick), Detail::Sketch) => quick.sketch(gpu, encoder, target, sight, settings),
+            (Some(quick), Detail::Plain) => quick.draw(gpu, encoder, target, sight, settings),
+            _ => self.fine.draw(gpu, encoder, target, size, scene, view, settings),
         }
     }
 
     /// Adds part of the direct light of the next fine picture.
-    pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, sight: &Sight, look: &Look) {
+    pub fn add_light(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        sight: &Sight,
+        settings: &RenderSettings,
+    ) {
         self.fine.cast_shadows(Some(Arc::clone(&sight.shadows)));
-        self.fine.add_light(gpu, encoder, sight.size, &sight.scene, &sight.view, look);
+        self.fine.add_light(gpu, encoder, sight.size, &sight.scene, &sight.view, settings);
     }
 
     fn renderers(&mut self) -> impl Iterator<Item = &mut Renderer> {

@@ -11,7 +11,7 @@ use crate::form_factor::{Row, map_rows};
 use crate::gpu::Gpu;
 use crate::radiosity::sites::Sites;
 use crate::raytrace::MeasuringPoint;
-use crate::render::{Look, develop};
+use crate::render::{RenderSettings, develop};
 use crate::trace::Tracer;
 
 /// Width of the hemicube, pixels.
@@ -44,7 +44,7 @@ impl PatchSight {
         gpu: &Gpu,
         solved: &Solved,
         point: MeasuringPoint,
-        look: &Look,
+        settings: &RenderSettings,
         progress: &dyn Progress,
     ) -> anyhow::Result<Option<Self>> {
         let viewpoint = Sites::new(&solved.scene).viewpoint(point.position, point.normal, 0);
@@ -60,7 +60,7 @@ impl PatchSight {
             point,
             size: view.size,
             items: view.items.iter().flat_map(item).collect(),
-            shaded: develop(view.size, view.radiance, look).display,
+            shaded: develop(view.size, view.radiance, settings).display,
             factors: factors(&row, solved.mesh.elements.len()),
             open_share: row.sky + row.back(),
         }))

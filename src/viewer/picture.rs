@@ -77,7 +77,7 @@ impl Walkthrough {
             shadows: Arc::clone(&place.mesh.shadows),
             light: place.light_version,
             view: View::from_camera(&place.traveller.eye.camera(), size[0] as f32 / size[1] as f32),
-            look: panels.light.look(place.is_lit),
+            settings: panels.light.render_settings(place.is_lit),
             rival: panels.light.rival(),
             size,
         })
@@ -86,7 +86,7 @@ impl Walkthrough {
     /// What is worth knowing of the shadows of a new picture.
     fn note_shadows(&mut self, sight: &Sight) {
         let scene = sight.shadows.scene();
-        let shadows = sight.look.shadows.as_ref();
+        let shadows = sight.settings.shadows.as_ref();
         let fault = shadows.and_then(|settings| known_fault(&sight.shadows, &sight.view, settings));
         self.inquiry.fault = fault.map(|fault| shadow_notes::in_words(fault, scene));
         self.inquiry.num_light_samples = shadows.map_or(0, |settings| settings.samples(&sight.shadows).len());
@@ -119,14 +119,14 @@ impl Walkthrough {
         let aspect = sight.size[0] as f32 / sight.size[1] as f32;
         let is_plain = sight.overlay.is_none() && self.panels.selection.hidden.is_empty() && !self.panels.replay.is_on;
         let eye = &place.traveller.eye;
-        if !is_plain || !still::suits(&sight.look, eye, aspect, &place.collider, &place.scene) {
+        if !is_plain || !still::suits(&sight.settings, eye, aspect, &place.collider, &place.scene) {
             return;
         }
         let metered_ev = self.screen.canvas.metered_ev(&self.screen.gpu);
         let subject = Subject {
             camera: eye.camera(),
             size: sight.size,
-            look: still::held(&sight.look, metered_ev),
+            settings: still::held(&sight.settings, metered_ev),
             dials: self.panels.light.groups.clone(),
         };
         let sent =

@@ -6,7 +6,7 @@ use super::motion::Motion;
 use super::painter::{texture, view_of};
 use super::sight::Sight;
 use crate::gpu::Gpu;
-use crate::render::{Look, Renderer};
+use crate::render::{RenderSettings, Renderer};
 
 /// Draws quick pictures into textures of one format.
 pub struct Quick {
@@ -51,9 +51,9 @@ impl Quick {
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
         sight: &Sight,
-        look: &Look,
+        settings: &RenderSettings,
     ) {
-        self.renderer.draw(gpu, encoder, target, sight.size, &sight.scene, &sight.view, look);
+        self.renderer.draw(gpu, encoder, target, sight.size, &sight.scene, &sight.view, settings);
     }
 
     /// Draws as large as there is time for; what is half as wide and high is enlarged into `target`.
@@ -63,17 +63,17 @@ impl Quick {
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
         sight: &Sight,
-        look: &Look,
+        settings: &RenderSettings,
     ) {
         if self.motion.is_full() {
-            return self.draw(gpu, encoder, target, sight, look);
+            return self.draw(gpu, encoder, target, sight, settings);
         }
         let size = sight.size.map(|side| side.div_ceil(2));
         let (small, _) = match self.target.take() {
             Some(last) if last.1 == size => self.target.insert(last),
             _ => self.target.insert((view_of(&texture(gpu, size, self.format)), size)),
         };
-        self.renderer.draw(gpu, encoder, small, size, &sight.scene, &sight.view, look);
+        self.renderer.draw(gpu, encoder, small, size, &sight.scene, &sight.view, settings);
         self.blitter.copy(&gpu.device, encoder, small, target);
     }
 }

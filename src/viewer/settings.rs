@@ -1,10 +1,10 @@
-//! What the user has set in the panels, and the picture's look that follows from it.
+//! What the user has set in the panels, and the render settings that follow from it.
 
 use glam::Vec3;
 
 use super::sight::{Comparison, Rival};
 use crate::render::shadow::{DebugView, ShadowDebug};
-use crate::render::{Exposure, Look, LuxScale, Shading, ShadowSettings, ShadowTechnique, ToneMap};
+use crate::render::{Exposure, LuxScale, RenderSettings, Shading, ShadowSettings, ShadowTechnique, ToneMap};
 use crate::scene::Scene;
 
 /// Exposure changes by this much with one key press, stops.
@@ -73,16 +73,16 @@ pub struct GroupDial {
 
 impl Default for LightSettings {
     fn default() -> Self {
-        let look = Look::default();
+        let render_settings = RenderSettings::default();
         Self {
             is_auto: true,
             ev: 0.0,
-            tone_map: look.tone_map,
-            shading: look.shading,
-            lux_scale: look.lux_scale,
+            tone_map: render_settings.tone_map,
+            shading: render_settings.shading,
+            lux_scale: render_settings.lux_scale,
             direct: true,
             indirect: true,
-            see_through_backs: look.cull_back,
+            see_through_backs: render_settings.cull_back,
             is_real_time: false,
             shadows: ShadowSettings::new(ShadowTechnique::VolumeDepthFail),
             rival: None,
@@ -142,10 +142,10 @@ impl LightSettings {
         self.is_real_time && self.rival.is_some() && self.comparison == Comparison::Split
     }
 
-    /// The look of the picture; before the first light is there, everything is shown in an even work light.
+    /// The settings of the picture; before the first light is there, everything is shown in an even work light.
     #[must_use]
-    pub fn look(&self, is_lit: bool) -> Look {
-        Look {
+    pub fn render_settings(&self, is_lit: bool) -> RenderSettings {
+        RenderSettings {
             exposure: if self.is_auto { Exposure::Auto } else { Exposure::Ev(self.ev) },
             tone_map: self.tone_map,
             shading: self.shading,
@@ -160,7 +160,7 @@ impl LightSettings {
             ambient: if is_lit { Vec3::ZERO } else { WORK_LIGHT },
             group_weights: self.groups.iter().map(GroupDial::weight).collect(),
             cull_back: self.see_through_backs,
-            ..Look::default()
+            ..RenderSettings::default()
         }
     }
 }
@@ -197,7 +197,7 @@ mod tests {
         settings.groups[0].intensity = 0.5;
         settings.groups[0].tint = Vec3::new(1.0, 0.5, 0.0);
         settings.groups[1].is_on = false;
-        assert_eq!(settings.look(true).group_weights, [Vec3::new(0.5, 0.25, 0.0), Vec3::ZERO]);
+        assert_eq!(settings.render_settings(true).group_weights, [Vec3::new(0.5, 0.25, 0.0), Vec3::ZERO]);
         assert!(!settings.groups[0].is_as_baked() && GroupDial::of("lamps").is_as_baked());
         assert_eq!(settings.groups[1].intensity, 1.0);
     }
@@ -205,8 +205,8 @@ mod tests {
     #[test]
     fn an_unlit_scene_is_not_black() {
         let settings = LightSettings::default();
-        assert!(settings.look(false).ambient.min_element() > 0.0);
-        assert_eq!(settings.look(true).ambient, Vec3::ZERO);
+        assert!(settings.render_settings(false).ambient.min_element() > 0.0);
+        assert_eq!(settings.render_settings(true).ambient, Vec3::ZERO);
     }
 
     #[test]
@@ -214,8 +214,8 @@ mod tests {
         let mut settings = LightSettings::default();
         settings.hold_exposure(Some(-4.0));
         settings.step_exposure(3.0);
-        assert!(matches!(settings.look(true).exposure, Exposure::Ev(ev) if (ev + 3.0).abs() < 1e-6));
+        assert!(matches!(settings.render_settings(true).exposure, Exposure::Ev(ev) if (ev + 3.0).abs() < 1e-6));
         settings.hold_exposure(Some(7.0));
-        assert!(matches!(settings.look(true).exposure, Exposure::Ev(ev) if (ev + 3.0).abs() < 1e-6));
+        assert!(matches!(settings.render_settings(true).exposure, Exposure::Ev(ev) if (ev + 3.0).abs() < 1e-6));
     }
 }

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::render::scene::SceneBuffers;
-use crate::render::{Look, Overlay, ShadowScene, ShadowSettings, View};
+use crate::render::{Overlay, RenderSettings, ShadowScene, ShadowSettings, View};
 
 /// How finely a picture is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -30,8 +30,8 @@ pub struct Sight {
     /// From where.
     pub view: View,
     /// How it is shown.
-    pub look: Look,
-    /// With which shadows those of the look are compared, and how.
+    pub settings: RenderSettings,
+    /// With which shadows those of the settings are compared, and how.
     pub rival: Option<Rival>,
     /// What is drawn over it.
     pub overlay: Option<Arc<Overlay>>,
@@ -39,7 +39,7 @@ pub struct Sight {
     pub size: [u32; 2],
 }
 
-/// Shadows that are compared with those of the look.
+/// Shadows that are compared with those of the settings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rival {
     /// How they are found.

@@ -8,7 +8,7 @@ use super::errand::{Bearer, Finding};
 use super::settings::GroupDial;
 use super::solved::Solved;
 use crate::raytrace::{Ambient, Film, SecondPass, TwoPassSettings};
-use crate::render::{Exposure, Look, Shading, develop};
+use crate::render::{Exposure, RenderSettings, Shading, develop};
 use crate::scene::{Camera, Scene};
 use crate::trace::Tracer;
 
@@ -32,21 +32,21 @@ pub struct Subject {
     /// Pixels across and down.
     pub size: [u32; 2],
     /// How it is shown; its exposure is fixed, so that nothing jumps.
-    pub look: Look,
+    pub settings: RenderSettings,
     /// How the light groups are dimmed.
     pub dials: Vec<GroupDial>,
 }
 
 /// Traces pass after pass, one ray a pixel each, and brings the mean after each.
 pub fn trace(bearer: &Bearer, solved: &Solved, wanted: &Subject) {
-    let Subject { camera, size, look, dials } = wanted;
+    let Subject { camera, size, settings: render_settings, dials } = wanted;
     let baked = solved.dimmed(dials);
     let tracer = Tracer::new(&baked.scene);
     let settings = TwoPassSettings { samples: MAX_RAYS, ambient: Ambient::Indirect { final_gather: 0 }, seed: 0 };
     let Some(second) = SecondPass::new(&tracer, &baked, &settings, bearer) else { return };
     let mut film = Film::new(*size);
     while film.samples() < MAX_RAYS && second.refine(&mut film, camera, 1, bearer) {
-        let display = develop(*size, film.radiance(), look).display;
+        let display = develop(*size, film.radiance(), render_settings).display;
         bearer.bring(Finding::Still(Box::new(Exposed { size: *size, display, num_rays: film.samples() })));
     }
 }
@@ -54,10 +54,12 @@ pub fn trace(bearer: &Bearer, solved: &Solved, wanted: &Subject) {
 /// The second pass shows the same light as the raster: all of it, on lit surfaces, and the view is not through the back of a
 /// wall, which rays cannot see through.
 #[must_use]
-pub fn suits(look: &Look, eye: &Eye, aspect: f32, collider: &Collider, scene: &Scene) -> bool {
-    let shows_all =
-        look.shading == Shading::Lit && look.direct == 1.0 && look.indirect == 1.0 && look.ambient == Vec3::ZERO;
-    shows_all && !(look.cull_back && looks_through_backs(eye, aspect, collider, scene))
+pub fn suits(render_settings: &RenderSettings, eye: &Eye, aspect: f32, collider: &Collider, scene: &Scene) -> bool {
+    let shows_all = render_settings.shading == Shading::Lit
+        && render_settings.direct == 1.0
+        && render_settings.indirect == 1.0
+        && render_settings.ambient == Vec3::ZERO;
+    shows_all && !(render_settings.cull_back && looks_through_backs(eye, aspect, collider, scene))
 }
 
 /// Some of a coarse grid of rays meets the back of a single-sided surface.
@@ -75,12 +77,12 @@ fn looks_through_backs(eye: &Eye, aspect: f32, collider: &Collider, scene: &Scen
 
 /// The exposure that a traced picture is shown with: that of the raster before it.
 #[must_use]
-pub fn held(look: &Look, metered_ev: Option<f32>) -> Look {
-    let exposure = match (look.exposure, metered_ev) {
+pub fn held(render_settings: &RenderSettings, metered_ev: Option<f32>) -> RenderSettings {
+    let exposure = match (render_settings.exposure, metered_ev) {
         (Exposure::Auto, Some(ev)) => Exposure::Ev(ev),
         (exposure, _) => exposure,
     };
-    Look { exposure, ..look.clone() }
+    RenderSettings { exposure, ..render_settings.clone() }
 }
 
 #[cfg(test)]
@@ -92,20 +94,23 @@ mod tests {
     fn a_view_through_a_wall_stays_drawn() {
         let scene = builtin::cornell();
         let collider = Collider::new(&scene);
-        let look = Look::default();
+        let render_settings = RenderSettings::default();
         let inside = Eye::from_camera(&scene.cameras[0]);
-        assert!(suits(&look, &inside, 1.0, &collider, &scene));
+        assert!(suits(&render_settings, &inside, 1.0, &collider, &scene));
         let behind = Eye::looking_along(Vec3::new(2.8, 2.7, 12.0), Vec3::NEG_Z);
         let before = Eye::looking_along(Vec3::new(2.8, 2.7, -12.0), Vec3::Z);
-        assert!(suits(&look, &before, 1.0, &collider, &scene) && !suits(&look, &behind, 1.0, &collider, &scene));
-        assert!(!suits(&Look { direct: 0.0, ..look }, &inside, 1.0, &collider, &scene));
+        assert!(
+            suits(&render_settings, &before, 1.0, &collider, &scene)
+                && !suits(&render_settings, &behind, 1.0, &collider, &scene)
+        );
+        assert!(!suits(&RenderSettings { direct: 0.0, ..render_settings }, &inside, 1.0, &collider, &scene));
     }
 
     #[test]
     fn a_metered_exposure_is_held() {
-        let look = Look::default();
-        assert_eq!(held(&look, Some(-3.0)).exposure, Exposure::Ev(-3.0));
-        let fixed = Look { exposure: Exposure::Ev(1.0), ..look };
+        let render_settings = RenderSettings::default();
+        assert_eq!(held(&render_settings, Some(-3.0)).exposure, Exposure::Ev(-3.0));
+        let fixed = RenderSettings { exposure: Exposure::Ev(1.0), ..render_settings };
         assert_eq!(held(&fixed, Some(-3.0)).exposure, Exposure::Ev(1.0));
     }
 }

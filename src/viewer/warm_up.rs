@@ -8,7 +8,7 @@ use super::sight::{Detail, Sight};
 use crate::baked::BakedScene;
 use crate::gpu::Gpu;
 use crate::render::scene::SceneBuffers;
-use crate::render::{Look, ShadowScene, View};
+use crate::render::{RenderSettings, ShadowScene, View};
 use crate::scene::builtin;
 
 /// Sides that are no powers of two: drivers may compile for those apart.
@@ -23,7 +23,7 @@ pub fn warm_up(gpu: &Gpu, canvas: &mut Canvas) {
         scene: Arc::new(SceneBuffers::new(gpu, &dark)),
         shadows: Arc::new(ShadowScene::new(gpu, Arc::new(dark.scene))),
         light: 0,
-        look: Look::default(),
+        settings: RenderSettings::default(),
         rival: None,
         overlay: None,
         size: SIZE,

@@ -7,7 +7,8 @@ use hemicube::baked::{BakedScene, VertexLight};
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{
-    Exposure, Look, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View, picture_in_light,
+    Exposure, RenderSettings, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View,
+    picture_in_light,
 };
 use hemicube::scene::{AlphaMode, Scene, builtin};
 use wgpu::TextureFormat;
@@ -18,17 +19,17 @@ use crate::support::screen::displayed;
 const SIZE: [u32; 2] = [160, 90];
 
 /// How many pixels differ by more than a step of eight bits, and how many are neither black nor white.
-fn compare(gpu: &Gpu, scene: &Scene, look: &Look) -> [usize; 2] {
+fn compare(gpu: &Gpu, scene: &Scene, settings: &RenderSettings) -> [usize; 2] {
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
     let buffers = SceneBuffers::new(gpu, &BakedScene { scene: scene.clone(), light });
     let shadows = Arc::new(ShadowScene::new(gpu, Arc::new(scene.clone())));
     let camera = &scene.cameras[0];
-    let of_radiance = picture_in_light(gpu, &buffers, Some(Arc::clone(&shadows)), camera, SIZE, look, 1);
+    let of_radiance = picture_in_light(gpu, &buffers, Some(Arc::clone(&shadows)), camera, SIZE, settings, 1);
     let of_radiance = of_radiance.expect("a picture").display;
     let mut renderer = Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
     renderer.cast_shadows(Some(shadows));
     let view = View::from_camera(camera, SIZE[0] as f32 / SIZE[1] as f32);
-    let at_once = displayed(gpu, &mut renderer, SIZE, &buffers, &view, look);
+    let at_once = displayed(gpu, &mut renderer, SIZE, &buffers, &view, settings);
     let pixels = at_once.as_chunks::<4>().0.iter().zip(of_radiance.as_chunks::<4>().0);
     let differing = pixels.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 1)).count();
     let grey = at_once.as_chunks::<4>().0.iter().filter(|pixel| !matches!(pixel[..3], [0, 0, 0] | [255, 255, 255]));
@@ -39,20 +40,24 @@ fn compare(gpu: &Gpu, scene: &Scene, look: &Look) -> [usize; 2] {
 fn what_is_displayed_at_once_is_what_is_made_of_radiance() {
     let Some(gpu) = gpu() else { return };
     let gallery = builtin::gallery();
-    let plain = Look { exposure: Exposure::Ev(1.0), ambient: Vec3::splat(0.2), ..Look::default() };
+    let plain = RenderSettings { exposure: Exposure::Ev(1.0), ambient: Vec3::splat(0.2), ..RenderSettings::default() };
     let shadows = |technique| Some(ShadowSettings::new(technique));
     let looks = [
         plain.clone(),
-        Look { tone_map: ToneMap::Linear, ..plain.clone() },
-        Look { shading: Shading::FalseColour, ..plain.clone() },
-        Look { shading: Shading::Albedo, ..plain.clone() },
-        Look { shading: Shading::Normals, ..plain.clone() },
-        Look { shadows: shadows(ShadowTechnique::Map), exposure: Exposure::Ev(-4.0), ..plain.clone() },
-        Look { shadows: shadows(ShadowTechnique::VolumeDepthFail), exposure: Exposure::Ev(-4.0), ..plain.clone() },
+        RenderSettings { tone_map: ToneMap::Linear, ..plain.clone() },
+        RenderSettings { shading: Shading::FalseColour, ..plain.clone() },
+        RenderSettings { shading: Shading::Albedo, ..plain.clone() },
+        RenderSettings { shading: Shading::Normals, ..plain.clone() },
+        RenderSettings { shadows: shadows(ShadowTechnique::Map), exposure: Exposure::Ev(-4.0), ..plain.clone() },
+        RenderSettings {
+            shadows: shadows(ShadowTechnique::VolumeDepthFail),
+            exposure: Exposure::Ev(-4.0),
+            ..plain.clone()
+        },
     ];
-    for look in looks {
-        let [differing, grey] = compare(gpu, &gallery, &look);
-        let name = (look.shading, look.tone_map, look.shadows.map(|shadows| shadows.technique));
+    for settings in looks {
+        let [differing, grey] = compare(gpu, &gallery, &settings);
+        let name = (settings.shading, settings.tone_map, settings.shadows.map(|shadows| shadows.technique));
         assert!(differing == 0 && grey > 10_000, "{name:?}: {differing} pixels differ, {grey} are grey");
     }
 }
@@ -65,8 +70,9 @@ fn glass_is_mixed_before_it_is_tone_mapped() {
         material.alpha_mode = AlphaMode::Blend;
         material.base_colour.w = 0.5;
     }
-    let look = Look { exposure: Exposure::Ev(3.0), ambient: Vec3::splat(0.2), ..Look::default() };
-    assert_eq!(compare(gpu, &scene, &look)[0], 0);
+    let settings =
+        RenderSettings { exposure: Exposure::Ev(3.0), ambient: Vec3::splat(0.2), ..RenderSettings::default() };
+    assert_eq!(compare(gpu, &scene, &settings)[0], 0);
 }
 
 #[test]
@@ -75,7 +81,8 @@ fn pictures_of_a_movement_settle_on_the_exposure_that_suits_them() {
     let scene = builtin::gallery();
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
     let buffers = SceneBuffers::new(gpu, &BakedScene { scene: scene.clone(), light });
-    let [dim, bright] = [0.02, 40.0].map(|ambient| Look { ambient: Vec3::splat(ambient), ..Look::default() });
+    let [dim, bright] =
+        [0.02, 40.0].map(|ambient| RenderSettings { ambient: Vec3::splat(ambient), ..RenderSettings::default() });
     let view = View::from_camera(&scene.cameras[0], SIZE[0] as f32 / SIZE[1] as f32);
     let mut renderer = Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
     let exact = displayed(gpu, &mut renderer, SIZE, &buffers, &view, &bright);

@@ -7,7 +7,7 @@ use hemicube::base::ids::GroupId;
 use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Exposure, Look, Picture, Raster, Renderer, ToneMap, View, picture};
+use hemicube::render::{Exposure, Picture, Raster, RenderSettings, Renderer, ToneMap, View, picture};
 use hemicube::scene::Material;
 use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
@@ -19,7 +19,8 @@ use crate::support::screen::screen;
 #[test]
 fn exposure_is_a_power_of_two_and_the_display_is_srgb() {
     let quads = Quads::square(paint(Vec3::ONE), Vec3::splat(PI / 8.0));
-    let shown = |ev| draw(&quads, &Look { exposure: Exposure::Ev(ev), ..plain() }).map(|p| display_at(&p, 20, 30)[0]);
+    let shown =
+        |ev| draw(&quads, &RenderSettings { exposure: Exposure::Ev(ev), ..plain() }).map(|p| display_at(&p, 20, 30)[0]);
     let Some(dark) = shown(0.0) else { return };
     // sRGB of 1/8, 1/4 and 1.
     assert!(dark.abs_diff(99) <= 1 && shown(1.0).expect("a GPU").abs_diff(137) <= 1, "{dark}");
@@ -28,8 +29,8 @@ fn exposure_is_a_power_of_two_and_the_display_is_srgb() {
 
 #[test]
 fn metering_does_not_depend_on_the_strength_of_the_light() {
-    let look = Look { exposure: Exposure::Auto, ..plain() };
-    let shown = |light| draw(&Quads::square(paint(Vec3::ONE), Vec3::splat(light)), &look);
+    let settings = RenderSettings { exposure: Exposure::Auto, ..plain() };
+    let shown = |light| draw(&Quads::square(paint(Vec3::ONE), Vec3::splat(light)), &settings);
     let Some(dim) = shown(0.01) else { return };
     let bright = shown(30_000.0).expect("a GPU");
     // Middle grey is 0.2 of white, within half a histogram bin: sRGB 124.
@@ -47,7 +48,10 @@ fn metering_protects_highlights_and_ignores_the_background() {
     quads.quad(Vec3::new(-0.5, -0.5, 0.0), Vec3::X, Vec3::Y, white);
     quads.quad(Vec3::new(-0.5, -0.5, 0.1), 0.5 * Vec3::X, 0.5 * Vec3::Y, white);
     quads.light(GroupId(0), |p| Vec3::splat(if p.z > 0.05 { 1000.0 } else { 1.0 }), |_| Vec3::ZERO);
-    let Some(picture) = draw(&quads, &Look { tone_map: ToneMap::Neutral, ..Look::default() }) else { return };
+    let Some(picture) = draw(&quads, &RenderSettings { tone_map: ToneMap::Neutral, ..RenderSettings::default() })
+    else {
+        return;
+    };
     let bright = display_at(&picture, 24, 40)[0];
     assert!(bright > 235 && bright < 253, "{bright}");
     assert!(display_at(&picture, 40, 24)[0] > 2);
@@ -68,8 +72,8 @@ fn dithering_hides_steps_but_leaves_whole_steps_alone() {
 
 #[test]
 fn background_is_a_display_colour_and_sends_no_radiance() {
-    let look = Look { background: Vec3::new(1.0, 0.0, 1.0), exposure: Exposure::Ev(-8.0), ..plain() };
-    let Some(picture) = draw(&Quads::with_groups(1), &look) else { return };
+    let settings = RenderSettings { background: Vec3::new(1.0, 0.0, 1.0), exposure: Exposure::Ev(-8.0), ..plain() };
+    let Some(picture) = draw(&Quads::with_groups(1), &settings) else { return };
     assert_eq!(display_at(&picture, 5, 5), [255, 0, 255]);
     assert!(picture.radiance.iter().all(|pixel| pixel == &[0.0; 4]));
 }
@@ -133,8 +137,8 @@ fn draw_two_into(gpu: &Gpu, format: TextureFormat, quads: &Quads) -> Vec<u8> {
     let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
     let targets = [0.0, -2.0].map(|ev| {
         let target = screen(gpu, [SIZE; 2], format);
-        let look = Look { exposure: Exposure::Ev(ev), ..plain() };
-        renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), [SIZE; 2], &scene, &view, &look);
+        let settings = RenderSettings { exposure: Exposure::Ev(ev), ..plain() };
+        renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), [SIZE; 2], &scene, &view, &settings);
         target
     });
     gpu.queue.submit([encoder.finish()]);

@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Exposure, Look, Raster, ToneMap, develop, picture_of};
+use hemicube::render::{Exposure, Raster, RenderSettings, ToneMap, develop, picture_of};
 use hemicube::scene::{Camera, Material};
 
 use super::stage::{SIZE, draw, four_texels, plain};
@@ -59,7 +59,7 @@ fn a_room_looks_as_it_did() {
     let Some(gpu) = gpu() else { return };
     let camera = Camera::looking_at("room", Vec3::new(0.3, 0.2, 4.2), Vec3::ZERO, 0.65);
     let scene = SceneBuffers::new(gpu, &room().baked);
-    let drawn = picture_of(gpu, &scene, &camera, [256; 2], &Look::default(), 1);
+    let drawn = picture_of(gpu, &scene, &camera, [256; 2], &RenderSettings::default(), 1);
     assert_snapshot("room", &drawn.expect("a picture"));
 }
 
@@ -72,11 +72,11 @@ fn the_processor_shows_light_as_the_gpu_does() {
     quads.light(GroupId(0), |at| Vec3::new(3e3, 1e3, 2e3) * (0.01 + (at.x + 1.0) * (at.y + 1.0)), |_| Vec3::ZERO);
     for exposure in [Exposure::Auto, Exposure::Ev(-9.0), Exposure::Ev(-6.0)] {
         for tone_map in [ToneMap::Neutral, ToneMap::Linear] {
-            let look = Look { exposure, tone_map, ..Look::default() };
-            let Some(drawn) = draw(&quads, &look) else { return };
-            let developed = develop([SIZE; 2], drawn.radiance.clone(), &look);
+            let settings = RenderSettings { exposure, tone_map, ..RenderSettings::default() };
+            let Some(drawn) = draw(&quads, &settings) else { return };
+            let developed = develop([SIZE; 2], drawn.radiance.clone(), &settings);
             let off = drawn.display.iter().zip(&developed.display).map(|(a, b)| a.abs_diff(*b)).max();
-            assert!(off <= Some(1), "{look:?}: {off:?} steps apart");
+            assert!(off <= Some(1), "{settings:?}: {off:?} steps apart");
         }
     }
 }

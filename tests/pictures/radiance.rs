@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Look, Shading, picture, picture_of};
+use hemicube::render::{RenderSettings, Shading, picture, picture_of};
 use hemicube::scene::Material;
 
 use super::stage::{SIZE, assert_close, centre, display_at, draw, plain, radiance_at};
@@ -58,22 +58,22 @@ fn the_picture_is_linear_in_every_part_of_the_light() {
     let quads = four_lights();
     let Some(all) = centre(&quads, &plain()) else { return };
     assert_close(all, Vec3::splat(15.0));
-    let shown = |look: Look| centre(&quads, &look).expect("a GPU");
-    assert_close(shown(Look { direct: 0.0, ..plain() }), Vec3::splat(10.0));
-    assert_close(shown(Look { indirect: 0.0, ..plain() }), Vec3::splat(5.0));
-    assert_close(shown(Look { group_weights: vec![Vec3::ZERO], ..plain() }), Vec3::splat(12.0));
+    let shown = |settings: RenderSettings| centre(&quads, &settings).expect("a GPU");
+    assert_close(shown(RenderSettings { direct: 0.0, ..plain() }), Vec3::splat(10.0));
+    assert_close(shown(RenderSettings { indirect: 0.0, ..plain() }), Vec3::splat(5.0));
+    assert_close(shown(RenderSettings { group_weights: vec![Vec3::ZERO], ..plain() }), Vec3::splat(12.0));
     let red_and_double = vec![Vec3::X, Vec3::splat(2.0)];
-    assert_close(shown(Look { group_weights: red_and_double, ..plain() }), Vec3::new(27.0, 24.0, 24.0));
+    assert_close(shown(RenderSettings { group_weights: red_and_double, ..plain() }), Vec3::new(27.0, 24.0, 24.0));
     let ambient = Vec3::new(0.0, 1.0, 2.0);
-    assert_close(shown(Look { direct: 0.0, indirect: 0.0, ambient, ..plain() }), ambient);
+    assert_close(shown(RenderSettings { direct: 0.0, indirect: 0.0, ambient, ..plain() }), ambient);
 }
 
 #[test]
 fn a_dimmed_group_dims_the_glow_of_its_lamps() {
     let lamp = Material { emission: Vec3::ONE, group: Some(GroupId(0)), ..paint(Vec3::ONE) };
     let quads = Quads::square(lamp, Vec3::ZERO);
-    let look = Look { group_weights: vec![Vec3::new(0.5, 0.25, 0.0)], ..plain() };
-    let Some(radiance) = centre(&quads, &look) else { return };
+    let settings = RenderSettings { group_weights: vec![Vec3::new(0.5, 0.25, 0.0)], ..plain() };
+    let Some(radiance) = centre(&quads, &settings) else { return };
     assert_close(radiance, Vec3::new(0.5, 0.25, 0.0));
 }
 
@@ -93,7 +93,7 @@ fn metals_are_black_unless_shown_as_diffuse() {
     let quads = Quads::square(metal, Vec3::splat(PI));
     let Some(black) = centre(&quads, &plain()) else { return };
     assert_close(black, Vec3::ZERO);
-    let shown = centre(&quads, &Look { metal_as_diffuse: true, ..plain() }).expect("a GPU");
+    let shown = centre(&quads, &RenderSettings { metal_as_diffuse: true, ..plain() }).expect("a GPU");
     assert_close(shown, Vec3::new(0.9, 0.6, 0.3));
 }
 
@@ -107,12 +107,14 @@ fn unlit_surfaces_show_their_base_colour() {
 #[test]
 fn albedo_and_normals_are_shown_without_light() {
     let quads = Quads::square(paint(Vec3::new(0.5, 0.25, 0.0)), Vec3::ZERO);
-    let shown = |shading| draw(&quads, &Look { shading, ..Look::default() }).map(|p| display_at(&p, 30, 30));
+    let shown = |shading| {
+        draw(&quads, &RenderSettings { shading, ..RenderSettings::default() }).map(|p| display_at(&p, 30, 30))
+    };
     let Some(albedo) = shown(Shading::Albedo) else { return };
     assert_eq!(albedo, [188, 137, 0]);
     assert_eq!(shown(Shading::Normals), Some([188, 188, 255]));
     let lit = Quads::square(paint(Vec3::new(0.5, 0.25, 0.0)), Vec3::splat(PI));
-    let light_alone = Look { shading: Shading::IrradianceOnly, ..plain() };
+    let light_alone = RenderSettings { shading: Shading::IrradianceOnly, ..plain() };
     assert_close(centre(&lit, &light_alone).expect("a GPU"), Vec3::ONE);
 }
 

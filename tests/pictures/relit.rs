@@ -6,7 +6,7 @@ use glam::Vec3;
 use hemicube::base::ids::GroupId;
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Look, Renderer, View};
+use hemicube::render::{RenderSettings, Renderer, View};
 use wgpu::TextureFormat;
 
 use super::stage::{SIZE, plain};
@@ -15,9 +15,9 @@ use crate::support::quads::{Quads, paint, square_camera};
 use crate::support::screen::displayed;
 
 /// Display value of the middle, red, of one picture after the other by the same renderer.
-fn red(gpu: &Gpu, renderer: &mut Renderer, scene: &SceneBuffers, look: &Look) -> u8 {
+fn red(gpu: &Gpu, renderer: &mut Renderer, scene: &SceneBuffers, settings: &RenderSettings) -> u8 {
     let view = View::from_camera(&square_camera(), 1.0);
-    displayed(gpu, renderer, [SIZE; 2], scene, &view, look)[(4 * (SIZE * SIZE / 2 + SIZE / 2)) as usize]
+    displayed(gpu, renderer, [SIZE; 2], scene, &view, settings)[(4 * (SIZE * SIZE / 2 + SIZE / 2)) as usize]
 }
 
 /// White paint whose group `group` alone brings radiance 0.5, half of it direct.
@@ -40,13 +40,13 @@ fn light_that_was_dimmed_or_renewed_is_seen_in_the_next_picture() {
     let mut renderer = Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
     let mut quads = lit_by(2, 1);
     let scene = SceneBuffers::new(gpu, &quads.baked);
-    let mut shown = |scene: &SceneBuffers, look: &Look| red(gpu, &mut renderer, scene, look);
+    let mut shown = |scene: &SceneBuffers, settings: &RenderSettings| red(gpu, &mut renderer, scene, settings);
     assert_eq!(shown(&scene, &plain()), HALF);
-    let dimmed = Look { group_weights: vec![Vec3::ONE, Vec3::splat(0.5)], ..plain() };
+    let dimmed = RenderSettings { group_weights: vec![Vec3::ONE, Vec3::splat(0.5)], ..plain() };
     assert_eq!(shown(&scene, &dimmed), QUARTER);
-    let of_the_other = Look { group_weights: vec![Vec3::splat(0.5), Vec3::ONE], ..plain() };
+    let of_the_other = RenderSettings { group_weights: vec![Vec3::splat(0.5), Vec3::ONE], ..plain() };
     assert_eq!(shown(&scene, &of_the_other), HALF);
-    assert_eq!(shown(&scene, &Look { indirect: 0.0, ..of_the_other }), QUARTER);
+    assert_eq!(shown(&scene, &RenderSettings { indirect: 0.0, ..of_the_other }), QUARTER);
     // Renewed light of the same scene, then another scene of the same size.
     quads.light(GroupId(1), |_| Vec3::splat(0.25 * PI), |_| Vec3::ZERO);
     scene.set_light(gpu, &quads.baked.light);

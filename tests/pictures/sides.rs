@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Look, picture_of};
+use hemicube::render::{RenderSettings, picture_of};
 use hemicube::scene::{AlphaMode, Material};
 
 use super::stage::{SIZE, assert_close, draw, plain, quarters, radiance_at};
@@ -60,8 +60,8 @@ fn from_behind(material: Material) -> Quads {
 }
 
 /// Radiance and coverage in the middle.
-fn middle(quads: &Quads, look: &Look) -> Option<[f32; 2]> {
-    let picture = draw(quads, look)?;
+fn middle(quads: &Quads, settings: &RenderSettings) -> Option<[f32; 2]> {
+    let picture = draw(quads, settings)?;
     let [r, _, _, a] = picture.radiance[(SIZE / 2 * SIZE + SIZE / 2) as usize];
     Some([r, a])
 }
@@ -70,7 +70,7 @@ fn middle(quads: &Quads, look: &Look) -> Option<[f32; 2]> {
 fn backs_are_invisible_or_black_or_a_second_face() {
     let single = from_behind(paint(Vec3::ONE));
     let double = from_behind(Material { double_sided: true, ..paint(Vec3::ONE) });
-    let solid = Look { cull_back: false, ..plain() };
+    let solid = RenderSettings { cull_back: false, ..plain() };
     let Some(culled) = middle(&single, &plain()) else { return };
     assert_eq!(culled, [0.0, 0.0]);
     assert_eq!(middle(&single, &solid).expect("a GPU"), [0.0, 1.0]);
@@ -89,7 +89,7 @@ fn baked_twins_are_seen_each_from_its_side() {
     for lit in &mut quads.baked.light.groups[0].direct[..4] {
         *lit *= 10.0;
     }
-    let solid = Look { cull_back: false, ..plain() };
+    let solid = RenderSettings { cull_back: false, ..plain() };
     let Some(picture) = draw(&quads, &solid) else { return };
     assert!(picture.radiance.iter().all(|pixel| (pixel[0] - 1.0).abs() < 1e-3));
 }

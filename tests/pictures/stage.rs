@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Exposure, Look, Picture, ToneMap, picture_of};
+use hemicube::render::{Exposure, Picture, RenderSettings, ToneMap, picture_of};
 use hemicube::scene::Material;
 
 use crate::support::device::gpu;
@@ -13,21 +13,21 @@ use crate::support::quads::{Quads, paint, slot, square_camera, texture};
 pub const SIZE: u32 = 64;
 
 /// Radiance shown as it is.
-pub fn plain() -> Look {
-    Look {
+pub fn plain() -> RenderSettings {
+    RenderSettings {
         exposure: Exposure::Ev(0.0),
         tone_map: ToneMap::Linear,
         background: Vec3::ZERO,
         metal_as_diffuse: false,
-        ..Look::default()
+        ..RenderSettings::default()
     }
 }
 
 /// The square seen face on, without multisampling.
-pub fn draw(quads: &Quads, look: &Look) -> Option<Picture> {
+pub fn draw(quads: &Quads, settings: &RenderSettings) -> Option<Picture> {
     let gpu = gpu()?;
     let scene = SceneBuffers::new(gpu, &quads.baked);
-    Some(picture_of(gpu, &scene, &square_camera(), [SIZE; 2], look, 1).expect("a picture"))
+    Some(picture_of(gpu, &scene, &square_camera(), [SIZE; 2], settings, 1).expect("a picture"))
 }
 
 pub fn radiance_at(picture: &Picture, x: u32, y: u32) -> Vec3 {
@@ -41,8 +41,8 @@ pub fn display_at(picture: &Picture, x: u32, y: u32) -> [u8; 3] {
 }
 
 /// Radiance in the middle of the square.
-pub fn centre(quads: &Quads, look: &Look) -> Option<Vec3> {
-    draw(quads, look).map(|picture| radiance_at(&picture, SIZE / 2, SIZE / 2))
+pub fn centre(quads: &Quads, settings: &RenderSettings) -> Option<Vec3> {
+    draw(quads, settings).map(|picture| radiance_at(&picture, SIZE / 2, SIZE / 2))
 }
 
 #[track_caller]

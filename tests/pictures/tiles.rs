@@ -9,7 +9,7 @@ use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::reconstruct::dark_scene;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{
-    Exposure, Look, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, View, picture_in_light,
+    Exposure, RenderSettings, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, View, picture_in_light,
 };
 use hemicube::scene::{Camera, Projection, builtin};
 use wgpu::TextureFormat;
@@ -43,14 +43,14 @@ fn difference(a: &[u8], b: &[u8]) -> (u8, f64) {
 }
 
 /// Pictures with tiles and without.
-fn both(gpu: &Gpu, baked: &BakedScene, camera: &Camera, look: &Look, samples: u32) -> [Vec<u8>; 2] {
+fn both(gpu: &Gpu, baked: &BakedScene, camera: &Camera, settings: &RenderSettings, samples: u32) -> [Vec<u8>; 2] {
     let with_tiles = SceneBuffers::new(gpu, baked);
     assert!(with_tiles.tiled.is_some());
     let mut without = SceneBuffers::new(gpu, baked);
     without.tiled = None;
     let shadows = Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene.clone())));
     [with_tiles, without].map(|buffers| {
-        let picture = picture_in_light(gpu, &buffers, Some(Arc::clone(&shadows)), camera, SIZE, look, samples);
+        let picture = picture_in_light(gpu, &buffers, Some(Arc::clone(&shadows)), camera, SIZE, settings, samples);
         picture.expect("a picture").display
     })
 }
@@ -59,25 +59,30 @@ fn both(gpu: &Gpu, baked: &BakedScene, camera: &Camera, look: &Look, samples: u3
 fn tiles_look_like_the_elements_that_they_are_of() {
     let Some(gpu) = gpu() else { return };
     let baked = waving();
-    let lit = Look { exposure: Exposure::Ev(-1.0), ..Look::default() };
+    let lit = RenderSettings { exposure: Exposure::Ev(-1.0), ..RenderSettings::default() };
     let map = ShadowSettings::new(ShadowTechnique::Map);
     let camera = &baked.scene.cameras[0];
     let beside = Camera { position: camera.position + Vec3::new(7.0, 0.0, 2.0), ..camera.clone() };
     let flat = Camera { projection: Projection::Orthographic { half_height: 2.0 }, ..camera.clone() };
-    for (name, look, camera, samples) in [
+    for (name, settings, camera, samples) in [
         ("lit", lit.clone(), camera, 1),
         ("lit, several samples", lit.clone(), camera, 4),
-        ("indirect, with ambient light", Look { direct: 0.0, ambient: Vec3::splat(0.5), ..lit.clone() }, camera, 1),
-        ("dimmed", Look { group_weights: vec![Vec3::new(0.5, 1.0, 2.0)], ..lit.clone() }, camera, 1),
-        ("false colour", Look { shading: Shading::FalseColour, ..lit.clone() }, camera, 1),
-        ("irradiance", Look { shading: Shading::IrradianceOnly, ..lit.clone() }, camera, 1),
-        ("albedo", Look { shading: Shading::Albedo, ..lit.clone() }, camera, 1),
-        ("shadow maps", Look { shadows: Some(map.clone()), ..lit.clone() }, camera, 1),
+        (
+            "indirect, with ambient light",
+            RenderSettings { direct: 0.0, ambient: Vec3::splat(0.5), ..lit.clone() },
+            camera,
+            1,
+        ),
+        ("dimmed", RenderSettings { group_weights: vec![Vec3::new(0.5, 1.0, 2.0)], ..lit.clone() }, camera, 1),
+        ("false colour", RenderSettings { shading: Shading::FalseColour, ..lit.clone() }, camera, 1),
+        ("irradiance", RenderSettings { shading: Shading::IrradianceOnly, ..lit.clone() }, camera, 1),
+        ("albedo", RenderSettings { shading: Shading::Albedo, ..lit.clone() }, camera, 1),
+        ("shadow maps", RenderSettings { shadows: Some(map.clone()), ..lit.clone() }, camera, 1),
         ("orthographic", lit.clone(), &flat, 1),
         ("from outside", lit.clone(), &beside, 1),
-        ("backs from outside", Look { cull_back: false, ..lit.clone() }, &beside, 1),
+        ("backs from outside", RenderSettings { cull_back: false, ..lit.clone() }, &beside, 1),
     ] {
-        let [tiles, elements] = both(gpu, &baked, camera, &look, samples);
+        let [tiles, elements] = both(gpu, &baked, camera, &settings, samples);
         let (largest, share) = difference(&tiles, &elements);
         assert!(share < 0.003, "{name}: {share} of the pixels differ, by up to {largest}");
     }
@@ -88,7 +93,7 @@ fn an_instance_that_is_hidden_has_no_tiles_in_the_picture() {
     let Some(gpu) = gpu() else { return };
     let baked = waving();
     let camera = &baked.scene.cameras[0];
-    let lit = Look { exposure: Exposure::Ev(-1.0), ..Look::default() };
+    let lit = RenderSettings { exposure: Exposure::Ev(-1.0), ..RenderSettings::default() };
     let all = SceneBuffers::new(gpu, &baked);
     let hidden = baked.scene.triangles[baked.scene.triangles.len() - 1].instance;
     let [tiles, mut elements] = [(); 2].map(|()| all.part(gpu, &baked.scene, |triangle| triangle.instance != hidden));
@@ -106,18 +111,19 @@ fn tiles_follow_light_that_is_written_anew_or_weighed_otherwise() {
     let mut baked = waving();
     let camera = baked.scene.cameras[0].clone();
     let view = View::from_camera(&camera, SIZE[0] as f32 / SIZE[1] as f32);
-    let lit = Look { exposure: Exposure::Ev(-1.0), ..Look::default() };
+    let lit = RenderSettings { exposure: Exposure::Ev(-1.0), ..RenderSettings::default() };
     let buffers = SceneBuffers::new(gpu, &baked);
     let [mut one, mut other] = [(); 2].map(|()| Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1));
-    let shown = |renderer: &mut Renderer, look: &Look| displayed(gpu, renderer, SIZE, &buffers, &view, look);
+    let shown =
+        |renderer: &mut Renderer, settings: &RenderSettings| displayed(gpu, renderer, SIZE, &buffers, &view, settings);
     let first = shown(&mut one, &lit);
-    let dimmed = shown(&mut other, &Look { group_weights: vec![Vec3::splat(0.5)], ..lit.clone() });
+    let dimmed = shown(&mut other, &RenderSettings { group_weights: vec![Vec3::splat(0.5)], ..lit.clone() });
     assert!(difference(&first, &dimmed).1 > 0.3, "half of the light is darker");
     assert_eq!(difference(&first, &shown(&mut one, &lit)).0, 0, "another picture has weighed the light of both");
     baked.light.groups[0].direct.fill(Vec3::ZERO);
     buffers.set_light(gpu, &baked.light);
     let without = shown(&mut one, &lit);
-    let indirect = Look { direct: 0.0, ..lit };
+    let indirect = RenderSettings { direct: 0.0, ..lit };
     assert!(difference(&first, &without).1 > 0.3, "there is no direct light any more");
     assert_eq!(difference(&without, &shown(&mut one, &indirect)).0, 0);
 }

@@ -7,7 +7,7 @@ use hemicube::gpu::Gpu;
 use hemicube::render::shadow::debug::count_colour;
 use hemicube::render::shadow::silhouette::{facing, silhouette};
 use hemicube::render::shadow::{DebugView, ShadowDebug};
-use hemicube::render::{Exposure, Look, Picture, ShadowSettings, ShadowTechnique, picture_in_light};
+use hemicube::render::{Exposure, Picture, RenderSettings, ShadowSettings, ShadowTechnique, picture_in_light};
 
 use super::stage::{SIZE, Shot, Stage, at, settings};
 use crate::support::device::gpu;
@@ -21,14 +21,14 @@ fn stage() -> Stage {
 }
 
 fn picture(gpu: &Gpu, shot: &Shot, shadows: &ShadowSettings, view: Option<DebugView>) -> Picture {
-    let look = Look {
+    let render_settings = RenderSettings {
         shadows: Some(shadows.clone()),
         shadow_debug: view.map(|view| ShadowDebug { view, light: 0 }),
         exposure: Exposure::Ev(0.0),
-        ..Look::default()
+        ..RenderSettings::default()
     };
     let shadows = Some(Arc::clone(&shot.shadows));
-    picture_in_light(gpu, &shot.buffers, shadows, &shot.camera, SIZE, &look, 1).expect("a picture")
+    picture_in_light(gpu, &shot.buffers, shadows, &shot.camera, SIZE, &render_settings, 1).expect("a picture")
 }
 
 fn pixel(picture: &Picture, at: usize) -> [u8; 3] {

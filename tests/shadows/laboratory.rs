@@ -6,7 +6,7 @@ use glam::Vec3;
 use hemicube::base::ids::{GroupId, InstanceId, TriangleId};
 use hemicube::gpu::{Gpu, Stopwatch};
 use hemicube::render::shadow::{Batch, KnownFault, known_fault, num_batches};
-use hemicube::render::{Exposure, Look, Renderer, ShadowSettings, ShadowTechnique, View};
+use hemicube::render::{Exposure, RenderSettings, Renderer, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::{Instance, Light, LightKind, Material};
 
 use super::stage::{SIZE, Shot, Stage, at, paint, settings};
@@ -40,13 +40,14 @@ impl Easel {
     }
 
     fn add(&mut self, gpu: &Gpu, shot: &Shot, shadows: &ShadowSettings, is_partial: bool) {
-        let look = Look { shadows: Some(shadows.clone()), exposure: Exposure::Ev(0.0), ..Look::default() };
+        let render_settings =
+            RenderSettings { shadows: Some(shadows.clone()), exposure: Exposure::Ev(0.0), ..RenderSettings::default() };
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         if is_partial {
-            self.renderer.add_light(gpu, &mut encoder, SIZE, &shot.buffers, &self.view, &look);
+            self.renderer.add_light(gpu, &mut encoder, SIZE, &shot.buffers, &self.view, &render_settings);
         } else {
             let target = self.target.create_view(&Default::default());
-            self.renderer.draw(gpu, &mut encoder, &target, SIZE, &shot.buffers, &self.view, &look);
+            self.renderer.draw(gpu, &mut encoder, &target, SIZE, &shot.buffers, &self.view, &render_settings);
         }
         gpu.queue.submit([encoder.finish()]);
     }
@@ -176,10 +177,10 @@ fn every_pass_is_timed() {
     let view = easel.target.create_view(&Default::default());
     // More points than the surface pass adds itself.
     let map = ShadowSettings { light_samples: 8, ..settings(ShadowTechnique::Map) };
-    let look = Look { shadows: Some(map), ..Look::default() };
+    let render_settings = RenderSettings { shadows: Some(map), ..RenderSettings::default() };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     watch.begin(&mut encoder);
-    easel.renderer.draw(gpu, &mut encoder, &view, SIZE, &shot.buffers, &easel.view, &look);
+    easel.renderer.draw(gpu, &mut encoder, &view, SIZE, &shot.buffers, &easel.view, &render_settings);
     watch.end(&mut encoder);
     let begun = std::time::Instant::now();
     gpu.queue.submit([encoder.finish()]);

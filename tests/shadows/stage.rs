@@ -9,7 +9,9 @@ use hemicube::gpu::Gpu;
 use hemicube::render::picture_in_light;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::shadow::{Case, Decisions, Judge, ShadowDifference, shadow_difference};
-use hemicube::render::{Exposure, Look, Picture, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View};
+use hemicube::render::{
+    Exposure, Picture, RenderSettings, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View,
+};
 use hemicube::scene::{Camera, Instance, Light, LightKind, Material, Scene, Triangle, Vertex};
 
 use crate::support::device::gpu;
@@ -196,15 +198,23 @@ impl Shot {
     }
 
     pub fn picture(&self, gpu: &Gpu, settings: &ShadowSettings, samples: u32) -> Picture {
-        let look = Look {
+        let render_settings = RenderSettings {
             shadows: Some(settings.clone()),
             exposure: Exposure::Ev(0.0),
             tone_map: ToneMap::Linear,
             ambient: Vec3::splat(0.1),
-            ..Look::default()
+            ..RenderSettings::default()
         };
-        picture_in_light(gpu, &self.buffers, Some(Arc::clone(&self.shadows)), &self.camera, SIZE, &look, samples)
-            .expect("a picture")
+        picture_in_light(
+            gpu,
+            &self.buffers,
+            Some(Arc::clone(&self.shadows)),
+            &self.camera,
+            SIZE,
+            &render_settings,
+            samples,
+        )
+        .expect("a picture")
     }
 }
 

@@ -3,7 +3,7 @@
 use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Look, Renderer, View};
+use hemicube::render::{RenderSettings, Renderer, View};
 use wgpu::{
     CommandEncoderDescriptor, Extent3d, Texture, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
 };
@@ -29,11 +29,11 @@ pub fn displayed(
     size: [u32; 2],
     scene: &SceneBuffers,
     view: &View,
-    look: &Look,
+    settings: &RenderSettings,
 ) -> Vec<u8> {
     let target = screen(gpu, size, TextureFormat::Rgba8Unorm);
     let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, scene, view, look);
+    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, scene, view, settings);
     gpu.queue.submit([encoder.finish()]);
     read_texture(gpu, &target, 4).expect("a picture")
 }

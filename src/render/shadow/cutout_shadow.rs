@@ -158,7 +158,7 @@ impl CutoutShadowPass {
         for cutouts in &subject.shadows.cutouts {
             pass.set_bind_group(2, &subject.scene.materials[cutouts.material.index()], &[]);
             pass.set_bind_group(3, &cutouts.triangles, &[]);
-            self.pipelines.draw(pass, subject.scene, subject.look);
+            self.pipelines.draw(pass, subject.scene, subject.settings);
         }
     }
 }

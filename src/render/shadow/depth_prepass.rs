@@ -5,7 +5,7 @@ use super::pipeline::{PipelineRecipe, culling, nearest};
 use super::solid::{SolidPipelines, bind_mesh, solid_batches};
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
-use crate::render::Look;
+use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
 use crate::render::scene::materials::material_layout;
 use crate::scene::AlphaMode;
@@ -40,7 +40,7 @@ impl DepthPrepass {
         targets: &LightTargets,
         frame: &wgpu::BindGroup,
         scene: &SceneBuffers,
-        look: &Look,
+        settings: &RenderSettings,
     ) {
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
             label: Some("depth prepass"),
@@ -56,7 +56,7 @@ impl DepthPrepass {
         for batch in solid_batches(scene) {
             let has_holes = matches!(batch.alpha_mode, AlphaMode::Mask { .. });
             let pipelines = if has_holes { &self.mask } else { &self.opaque };
-            pass.set_pipeline(pipelines.of(batch, look));
+            pass.set_pipeline(pipelines.of(batch, settings));
             pass.set_bind_group(2, &scene.materials[batch.material.index()], &[]);
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);
         }

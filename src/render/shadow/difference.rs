@@ -10,7 +10,7 @@ use super::{ShadowScene, ShadowSettings};
 use crate::gpu::{Gpu, GpuError};
 use crate::render::frame_uniform::{frame_bind_group, frame_layout};
 use crate::render::scene::SceneBuffers;
-use crate::render::{Look, View};
+use crate::render::{RenderSettings, View};
 
 /// Which pixels the lights of a scene reach.
 #[derive(Clone, Debug, PartialEq)]
@@ -85,13 +85,16 @@ impl Judge {
     }
 
     fn ask<T>(&mut self, gpu: &Gpu, case: Case<'_>, of: impl FnOnce(&mut RealTimeLight, Subject<'_>) -> T) -> T {
-        let look = Look::default();
-        let frame = frame_bind_group(gpu, &self.layout, case.scene, case.view, &look);
+        let render_settings = RenderSettings::default();
+        let frame = frame_bind_group(gpu, &self.layout, case.scene, case.view, &render_settings);
         let Case { scene, shadows, view, .. } = case;
         // The last case may have been another scene.
         self.light.forget();
-        let seen = &scene.in_view(gpu, &view.outlook(&look));
-        of(&mut self.light, Subject { frame: &frame, scene, seen, shadows, view, look: &look, watch: None })
+        let seen = &scene.in_view(gpu, &view.outlook(&render_settings));
+        of(
+            &mut self.light,
+            Subject { frame: &frame, scene, seen, shadows, view, settings: &render_settings, watch: None },
+        )
     }
 }
 

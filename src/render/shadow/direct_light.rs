@@ -5,7 +5,7 @@ use super::pipeline::{PipelineRecipe, against_depth, culling};
 use super::solid::SolidPipelines;
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
-use crate::render::Look;
+use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
 
 /// Direct light of one sample where the stencil lets it pass.
@@ -63,9 +63,9 @@ impl DirectLightPass {
     }
 
     /// Draws within a pass that [`begin`] has begun and to which all bind groups are set.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneBuffers, look: &Look) {
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneBuffers, settings: &RenderSettings) {
         pass.set_stencil_reference(self.reference);
-        self.pipelines.draw(pass, scene, look);
+        self.pipelines.draw(pass, scene, settings);
     }
 }
 

@@ -65,7 +65,7 @@ impl LightUniform {
             back: axes.z_axis,
             cone_scale,
             intensity: sample.light.intensity
-                * subject.look.group_weight(sample.light.group)
+                * subject.settings.group_weight(sample.light.group)
                 * subject.scene.pre_exposure,
             cone_offset,
             to_origin: -axes.transpose() * place.truncate(),

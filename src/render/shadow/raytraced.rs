@@ -122,9 +122,9 @@ impl RaytracedLight {
             _ => LightTargets::new(gpu, size, 1),
         };
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
-        self.prepass.draw(&mut encoder, &targets, subject.frame, subject.seen, subject.look);
+        self.prepass.draw(&mut encoder, &targets, subject.frame, subject.seen, subject.settings);
         gpu.queue.submit([encoder.finish()]);
-        let points = self.points.find(gpu, &targets, subject.frame, subject.seen, subject.look);
+        let points = self.points.find(gpu, &targets, subject.frame, subject.seen, subject.settings);
         self.targets = Some(targets);
         let lines = PixelLines::new(subject.view, size);
         let rays = subject.shadows.rays();
@@ -208,7 +208,7 @@ impl Found {
 
 /// Irradiance of a light sample where nothing stands between.
 fn received(subject: Subject<'_>, visible: &VisiblePoint, sample: &LightSample) -> Vec3 {
-    sample.irradiance(visible.point, visible.normal) * subject.look.group_weight(sample.light.group)
+    sample.irradiance(visible.point, visible.normal) * subject.settings.group_weight(sample.light.group)
 }
 
 /// Nothing solid stands between a visible point and a light sample, and its triangle shows the light the side it shows

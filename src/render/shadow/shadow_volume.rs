@@ -173,7 +173,7 @@ impl HullKey {
         let matrix = subject.view.projection_from_world().to_cols_array().map(f32::to_bits);
         Self {
             place: place.to_array().map(f32::to_bits),
-            near_plane: (is_depth_pass && settings.near_plane_cure).then_some((matrix, subject.look.cull_back)),
+            near_plane: (is_depth_pass && settings.near_plane_cure).then_some((matrix, subject.settings.cull_back)),
             is_depth_pass,
             is_joined: settings.joined,
         }
@@ -194,7 +194,7 @@ impl Eye {
         Self {
             place: subject.view.eye().as_dvec4(),
             near_plane: NearPlane::new(subject.view),
-            culls_backs: subject.look.cull_back,
+            culls_backs: subject.settings.cull_back,
         }
     }
 

@@ -1,6 +1,6 @@
 //! Drawing the solid surfaces of a scene: all but those that blend, with the faces that a look shows.
 
-use crate::render::Look;
+use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
 use crate::render::scene::buffers::Batch;
 use crate::scene::AlphaMode;
@@ -18,15 +18,15 @@ impl SolidPipelines {
     }
 
     /// The pipeline of a batch.
-    pub fn of(&self, batch: &Batch, look: &Look) -> &wgpu::RenderPipeline {
-        if batch.faces.are_culled(look.cull_back) { &self.culled } else { &self.two_faced }
+    pub fn of(&self, batch: &Batch, settings: &RenderSettings) -> &wgpu::RenderPipeline {
+        if batch.faces.are_culled(settings.cull_back) { &self.culled } else { &self.two_faced }
     }
 
     /// Draws all solid batches; for passes that need no material because the depth prepass has cut the holes.
-    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneBuffers, look: &Look) {
+    pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneBuffers, settings: &RenderSettings) {
         bind_mesh(pass, scene);
         for batch in solid_batches(scene) {
-            pass.set_pipeline(self.of(batch, look));
+            pass.set_pipeline(self.of(batch, settings));
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);
         }
     }

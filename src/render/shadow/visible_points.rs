@@ -8,7 +8,7 @@ use super::solid::SolidPipelines;
 use crate::gpu::readback::read_texture;
 use crate::gpu::shader::{Shader, shader};
 use crate::gpu::{Gpu, GpuError};
-use crate::render::Look;
+use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
 
 /// Places and normals of visible points.
@@ -51,7 +51,7 @@ impl VisiblePoints {
         targets: &LightTargets,
         frame: &wgpu::BindGroup,
         scene: &SceneBuffers,
-        look: &Look,
+        settings: &RenderSettings,
     ) -> Result<Vec<Option<VisiblePoint>>, GpuError> {
         let textures = [texture(gpu, targets.size), texture(gpu, targets.size)];
         let mut encoder =
@@ -62,7 +62,7 @@ impl VisiblePoints {
             &textures.each_ref().map(|t| t.create_view(&Default::default())),
             frame,
             scene,
-            look,
+            settings,
         );
         gpu.queue.submit([encoder.finish()]);
         let points = read_texture(gpu, &textures[0], 16)?;
@@ -81,7 +81,7 @@ impl VisiblePoints {
         views: &[wgpu::TextureView; 2],
         frame: &wgpu::BindGroup,
         scene: &SceneBuffers,
-        look: &Look,
+        settings: &RenderSettings,
     ) {
         let attachments = views.each_ref().map(|view| {
             Some(wgpu::RenderPassColorAttachment {
@@ -105,7 +105,7 @@ impl VisiblePoints {
             ..Default::default()
         });
         pass.set_bind_group(0, frame, &[]);
-        self.pipelines.draw(&mut pass, scene, look);
+        self.pipelines.draw(&mut pass, scene, settings);
     }
 }
 

@@ -77,7 +77,8 @@ impl DebugPass {
         subject: Subject<'_>,
         debug: ShadowDebug,
     ) {
-        let settings = subject.look.shadows.clone().unwrap_or(ShadowSettings::new(ShadowTechnique::VolumeDepthFail));
+        let settings =
+            subject.settings.shadows.clone().unwrap_or(ShadowSettings::new(ShadowTechnique::VolumeDepthFail));
         let samples = settings.samples(subject.shadows);
         let Some(last) = samples.len().checked_sub(1) else { return };
         let index = debug.light.min(last);
@@ -93,7 +94,7 @@ impl DebugPass {
             }
             DebugView::Volumes | DebugView::Silhouettes | DebugView::Receivers => {
                 let marks = self.marks(gpu, subject, debug.view, &settings, &samples[index]);
-                self.overlay.draw(gpu, encoder, target, size, subject.scene, subject.view, subject.look, &marks);
+                self.overlay.draw(gpu, encoder, target, size, subject.scene, subject.view, subject.settings, &marks);
                 self.marks = Some((Source::new(debug.view, &settings, &samples[index]), marks));
             }
         }

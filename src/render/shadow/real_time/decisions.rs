@@ -41,7 +41,7 @@ impl RealTimeLight {
         let mut decisions = Vec::with_capacity(samples.len());
         for (index, sample) in samples.iter().enumerate() {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            self.prepass.draw(&mut encoder, &targets, subject.frame, subject.seen, subject.look);
+            self.prepass.draw(&mut encoder, &targets, subject.frame, subject.seen, subject.settings);
             direct_light::clear(&mut encoder, &targets);
             self.add_sample(gpu, &mut encoder, &targets, subject, settings, &lights, (index, sample));
             gpu.queue.submit([encoder.finish()]);
@@ -88,7 +88,7 @@ impl RealTimeLight {
         let mut pass = direct_light::begin(&mut encoder, targets);
         pass.set_bind_group(0, subject.frame, &[]);
         lights.bind(&mut pass, index);
-        self.on_receivers.draw(&mut pass, subject.seen, subject.look);
+        self.on_receivers.draw(&mut pass, subject.seen, subject.settings);
         drop(pass);
         gpu.queue.submit([encoder.finish()]);
         lit_pixels(gpu, targets)

@@ -59,7 +59,7 @@ impl RealTimeLight {
         let targets = self.targets_of(gpu, size);
         let lights = LightUniforms::new(gpu, &self.sample_layout, &samples, subject);
         self.prepare(gpu, subject, &samples, settings);
-        self.prepass.draw(encoder, &targets, subject.frame, subject.seen, subject.look);
+        self.prepass.draw(encoder, &targets, subject.frame, subject.seen, subject.settings);
         self.mark_shadows(gpu, encoder, &targets, subject, settings, &lights, (index, &samples[index]));
         targets
     }

@@ -23,7 +23,7 @@ use crate::render::shadow::shadow_map::ShadowMapPass;
 use crate::render::shadow::shadow_volume::ShadowVolumePass;
 use crate::render::shadow::silhouette::Counting;
 use crate::render::shadow::{ShadowScene, ShadowSettings, ShadowTechnique};
-use crate::render::{Look, View};
+use crate::render::{RenderSettings, View};
 
 /// What a picture is of: the same for every pass.
 #[derive(Clone, Copy)]
@@ -39,7 +39,7 @@ pub struct Subject<'a> {
     /// From where.
     pub view: &'a View,
     /// How.
-    pub look: &'a Look,
+    pub settings: &'a RenderSettings,
     /// Times the passes.
     pub watch: Option<&'a Stopwatch>,
 }
@@ -161,7 +161,7 @@ impl RealTimeLight {
         subject.work("silhouettes, on the processor", || self.prepare(gpu, subject, &samples, settings));
 
         // Which surfaces are visible, and no light on them.
-        self.prepass.draw(encoder, &targets, subject.frame, subject.seen, subject.look);
+        self.prepass.draw(encoder, &targets, subject.frame, subject.seen, subject.settings);
         if !goes_on {
             direct_light::clear(encoder, &targets);
         }
@@ -249,9 +249,9 @@ impl RealTimeLight {
             ShadowTechnique::Planar => &self.planar_light,
             _ => &self.unshadowed,
         });
-        light.draw(&mut pass, subject.seen, subject.look);
+        light.draw(&mut pass, subject.seen, subject.settings);
         if settings.technique == ShadowTechnique::Planar && !settings.planar.darkens_once {
-            self.planar_twice.draw(&mut pass, subject.seen, subject.look);
+            self.planar_twice.draw(&mut pass, subject.seen, subject.settings);
         }
         drop(pass);
         subject.lap(encoder, "direct light");

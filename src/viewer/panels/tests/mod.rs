@@ -177,7 +177,7 @@ fn controls_set_what_they_name() {
     click(&mut desk, "trace rays while still");
     assert!(desk.state().panels.memory.traces_stills);
     click(&mut desk, "direct light with live shadows");
-    assert!(desk.state().panels.light.look(true).shadows.is_some());
+    assert!(desk.state().panels.light.render_settings(true).shadows.is_some());
     click(&mut desk, "indirect");
     assert!(!desk.state().panels.light.indirect && desk.state().panels.light.direct);
     click(&mut desk, "Place");

@@ -33,7 +33,7 @@ fn shadows_are_compared_and_looked_into() {
     click(&mut desk, "Difference");
     assert_eq!(desk.state().panels.light.comparison, Comparison::Difference);
     choose(&mut desk, "Look into", "Stencil counts");
-    let debug = desk.state().panels.light.look(true).shadow_debug.expect("a debug view");
+    let debug = desk.state().panels.light.render_settings(true).shadow_debug.expect("a debug view");
     assert_eq!((debug.view, debug.light), (DebugView::StencilCounts, 0));
     assert!(desk.query_by_label("Light that is shown").is_some() && desk.query_by_label("of 7").is_some());
     for name in ["points a lamp", "radius of lamps"] {

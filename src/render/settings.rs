@@ -34,7 +34,7 @@ pub enum Shading {
     Lit,
     /// The light it receives, as ideal white paint would show it: E / pi.
     IrradianceOnly,
-    /// The illuminance that it receives as a colour of [`Look::lux_scale`], with lines of equal illuminance.
+    /// The illuminance that it receives as a colour of [`RenderSettings::lux_scale`], with lines of equal illuminance.
     FalseColour,
     /// Its reflectance, shown as it is, without exposure.
     Albedo,
@@ -57,7 +57,7 @@ impl Shading {
 
 /// How a picture of the same light is to look.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Look {
+pub struct RenderSettings {
     /// How bright the picture is.
     pub exposure: Exposure,
     /// How radiance beyond white is shown.
@@ -88,7 +88,7 @@ pub struct Look {
     pub cull_back: bool,
 }
 
-impl Default for Look {
+impl Default for RenderSettings {
     fn default() -> Self {
         Self {
             exposure: Exposure::Auto,
@@ -118,7 +118,7 @@ impl ToneMap {
     }
 }
 
-impl Look {
+impl RenderSettings {
     /// Factor of displayed colour on radiance, or none where it is to be metered.
     #[must_use]
     pub fn fixed_exposure(&self) -> Option<f32> {
