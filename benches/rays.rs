@@ -14,6 +14,7 @@ use anyhow::{Context, bail, ensure};
 use glam::{Vec2, Vec3};
 use hemicube::base::ids::TriangleId;
 use hemicube::base::sampling::{cosine_hemisphere, hash, triangle_from_square, unit_float};
+use hemicube::base::triangle::interpolate;
 use hemicube::scene::{Scene, area_of, builtin, gltf, normal_of};
 use hemicube::trace::Tracer;
 use rayon::prelude::*;
@@ -145,15 +146,14 @@ fn rays(scene: &Scene, count: u32) -> Vec<Ray> {
             whole
         })
         .collect();
-    let (low, high) = scene.bounds();
-    let height = 1e-5 * (high - low).max_element();
+    let height = 1e-5 * scene.bounds().extent();
     let ray = |i: u32| {
         let number = |k: u32| unit_float(hash(hash(i) ^ k));
         let at = area_until.partition_point(|&area| area <= number(1) * whole).min(area_until.len() - 1);
         let corners = scene.corners(TriangleId::new(at));
         let weights = triangle_from_square(Vec2::new(number(2), number(3)));
         let normal = normal_of(corners);
-        let point = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+        let point = interpolate(corners, weights);
         Ray { origin: point + height * normal, direction: cosine_hemisphere(normal, Vec2::new(number(4), number(5))) }
     };
     (0..count).map(ray).collect()

@@ -76,11 +76,11 @@ fn bench(gpu: &Gpu, scene: Scene) {
 
 /// The scene in the light of one spot under the middle of its ceiling.
 fn with_one_spot(mut scene: Scene) -> Scene {
-    let (low, high) = scene.bounds();
-    let position = (0.5 * (low + high)).with_y(high.y - 0.02 * (high.y - low.y));
+    let bounds = scene.bounds();
+    let position = bounds.centre().with_y(bounds.high.y - 0.02 * bounds.size().y);
     let kind =
         LightKind::Spot { position, direction: Vec3::NEG_Y, inner_angle: 0.8 * FRAC_PI_3, outer_angle: FRAC_PI_3 };
-    let intensity = Vec3::splat((high - low).length_squared());
+    let intensity = Vec3::splat(bounds.size().length_squared());
     scene.lights =
         vec![Light { name: "spot".to_owned(), kind, intensity, range: None, group: GroupId(0), profile: None }];
     scene.light_groups = vec!["spot".to_owned()];

@@ -9,7 +9,7 @@ use hemicube::bake::{BakeSettings, Method, Quality, bake};
 use hemicube::base::colour::luminance;
 use hemicube::base::progress::Unwatched;
 use hemicube::base::sampling::{r2, triangle_from_square};
-use hemicube::base::triangle::barycentric;
+use hemicube::base::triangle::{barycentric, interpolate};
 use hemicube::lightmap::{LightmapSettings, lightmap};
 use hemicube::scene::builtin;
 
@@ -29,15 +29,15 @@ fn the_texture_shows_what_the_vertices_store() {
         let whole = map.scene.corners(element.triangle);
         let coordinates = map.scene.triangles[element.triangle.index()].vertices.map(|v| map.coordinates[v as usize]);
         let weights = triangle_from_square(r2(e as u32, 11));
-        let place = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+        let place = interpolate(corners, weights);
         let at = barycentric(whole, place);
-        let shown = map.texels.sample(coordinates[0] * at.x + coordinates[1] * at.y + coordinates[2] * at.z);
+        let shown = map.texels.sample(interpolate(coordinates, at));
         let of_vertex = |v: u32| -> Vec3 {
             let groups = &bake.baked.light.groups;
             groups.iter().map(|group| group.direct[v as usize] + group.indirect[v as usize]).sum()
         };
         let [a, b, c] = element.vertices.map(of_vertex);
-        let stored = a * weights.x + b * weights.y + c * weights.z;
+        let stored = interpolate([a, b, c], weights);
         let area = hemicube::scene::area_of(corners);
         mean += area * luminance(stored);
         deviations.push((luminance((shown - stored).abs()), area));

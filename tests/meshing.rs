@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use glam::Vec3;
 use hemicube::base::ids::TriangleId;
 use hemicube::base::sampling::{r2, triangle_from_square};
+use hemicube::base::triangle::interpolate;
 use hemicube::patch::{MeshSettings, PatchMesh, Splits};
 use hemicube::radiosity::sites::Sites;
 use hemicube::scene::normal_of;
@@ -25,7 +26,7 @@ fn the_tree_finds_the_element_that_holds_a_point() {
         let corners = scene.corners(triangle);
         for i in 0..500 {
             let weights = triangle_from_square(r2(i, t as u32));
-            let point = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+            let point = interpolate(corners, weights);
             let element = &mesh.elements[mesh.element_at(triangle, weights).index()];
             let [a, b, c] = mesh.corners(element);
             let whole = (b - a).cross(c - a);

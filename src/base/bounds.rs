@@ -1,4 +1,4 @@
-//! Boxes, and what of them is in view.
+//! Axis-aligned boxes, and the test of a box against a view frustum.
 
 use glam::{Mat4, Vec3, Vec4};
 
@@ -11,43 +11,77 @@ pub struct Bounds {
     pub high: Vec3,
 }
 
-/// Half spaces whose intersection a face sees; their normals point inwards.
+/// The half spaces whose intersection a camera sees; their normals point inwards.
 #[derive(Clone, Copy, Debug)]
 pub struct Frustum([Vec4; 5]);
 
 impl Bounds {
-    /// The box that holds nothing.
+    /// The empty box: the neutral element of [`Self::joined`].
     pub const EMPTY: Self = Self { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
 
-    /// The box round some points; empty where there are none.
+    /// Smallest box that holds all points; [`Self::EMPTY`] if there are none.
     #[must_use]
     pub fn of(points: impl Iterator<Item = Vec3>) -> Self {
         points.fold(Self::EMPTY, |bounds, p| Self { low: bounds.low.min(p), high: bounds.high.max(p) })
     }
 
-    /// The box round both.
+    /// Smallest box that holds all points; `None` if there are none.
+    #[must_use]
+    pub fn around(mut points: impl Iterator<Item = Vec3>) -> Option<Self> {
+        let first = points.next()?;
+        Some(Self { low: first, high: first }.joined(Self::of(points)))
+    }
+
+    /// Smallest box that holds both boxes.
     #[must_use]
     pub fn joined(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// Half of its surface.
+    /// Lengths of its edges.
+    #[must_use]
+    pub fn size(&self) -> Vec3 {
+        self.high - self.low
+    }
+
+    /// Length of its longest edge.
+    #[must_use]
+    pub fn extent(&self) -> f32 {
+        self.size().max_element()
+    }
+
+    /// Distance between opposite corners.
+    #[must_use]
+    pub fn diagonal(&self) -> f32 {
+        self.size().length()
+    }
+
+    /// Its middle.
+    #[must_use]
+    pub fn centre(&self) -> Vec3 {
+        0.5 * (self.low + self.high)
+    }
+
+    /// Half of its surface area, which the surface area heuristic compares.
     #[must_use]
     pub fn half_area(&self) -> f32 {
-        let size = self.high - self.low;
+        let size = self.size();
         size.x * size.y + size.y * size.z + size.z * size.x
     }
 }
 
 impl Frustum {
-    /// The half spaces of a clip-from-world matrix without far plane.
+    /// The half spaces of a clip-from-world matrix, without the far plane.
+    ///
+    /// Source: Gribb and Hartmann 2001, "Fast Extraction of Viewing Frustum Planes from the World-View-Projection Matrix".
     #[must_use]
     pub fn new(clip_from_world: &Mat4) -> Self {
         let (x, y, w) = (clip_from_world.row(0), clip_from_world.row(1), clip_from_world.row(3));
         Self([w, w + x, w - x, w + y, w - y])
     }
 
-    /// Something of the box may be seen.
+    /// Whether a part of the box may be in view. Conservative: a box near an edge of the frustum may pass although all of
+    /// it lies outside.
     #[must_use]
     pub fn meets(&self, bounds: &Bounds) -> bool {
         self.0.iter().all(|plane| {
@@ -63,7 +97,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_frustum_meets_what_is_ahead_and_not_what_is_behind_or_beside() {
+    fn a_frustum_meets_boxes_ahead_but_not_behind_or_beside() {
         let view = glam::camera::rh::view::look_to_mat4(Vec3::new(1.0, 2.0, 3.0), Vec3::X, Vec3::Y);
         let frustum =
             Frustum::new(&(glam::camera::rh::proj::directx::perspective_infinite_reverse(1.0, 1.5, 0.1) * view));

@@ -1,4 +1,4 @@
-//! Linear Rec. 709 colour; sRGB is met only when textures are decoded and pictures are written.
+//! Linear Rec. 709 colour. All computation is linear; sRGB occurs only where textures are decoded and pictures written.
 
 use glam::Vec3;
 
@@ -32,9 +32,9 @@ pub fn srgb_byte_table() -> [f32; 256] {
     std::array::from_fn(|byte| linear_from_srgb(byte as f32 / 255.0))
 }
 
-/// Tone map: colours below 0.8 stay as they are, brighter ones are drawn in towards white, as in shaders/tonemap.wgsl.
+/// Tone map: keeps colours below 0.8 and compresses brighter ones towards white, as shaders/tonemap.wgsl does.
 ///
-/// Source: Khronos 2024, "PBR Neutral Tone Mapper", without its offset.
+/// Source: Khronos 2024, "PBR Neutral Tone Mapper", without its offset for Fresnel reflection.
 #[must_use]
 pub fn neutral(colour: Vec3) -> Vec3 {
     const START: f32 = 0.8;
@@ -54,7 +54,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn srgb_round_trip_is_exact_to_a_tenth_of_a_byte() {
+    fn an_srgb_round_trip_is_exact_to_a_tenth_of_a_byte() {
         for byte in 0..=255u8 {
             let back = srgb_from_linear(linear_from_srgb(f32::from(byte) / 255.0)) * 255.0;
             assert!((back - f32::from(byte)).abs() < 0.1, "{byte} came back as {back}");

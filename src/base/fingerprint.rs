@@ -1,11 +1,11 @@
-//! A name for data, made from its bytes: the same on every machine and in every version.
+//! Hash of data that is the same on every machine and in every version of the program.
 //!
 //! Source: Fowler, Noll, Vo 1991, FNV-1a with 128 bits (draft-eastlake-fnv).
 
 const OFFSET: u128 = 0x6c62_272e_07bb_0142_62b8_2175_6295_c58d;
 const PRIME: u128 = 0x0000_0000_0100_0000_0000_0000_0000_013b;
 
-/// The name of the bytes that were added so far. Not safe against those who choose bytes to collide.
+/// Hash of the bytes added so far; not cryptographic.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fingerprint(u128);
 
@@ -16,12 +16,12 @@ impl Default for Fingerprint {
 }
 
 impl Fingerprint {
-    /// Adds bytes at the end.
+    /// Appends bytes to the hashed data.
     pub fn add(&mut self, bytes: &[u8]) {
         self.0 = bytes.iter().fold(self.0, |hash, &byte| (hash ^ u128::from(byte)).wrapping_mul(PRIME));
     }
 
-    /// The name.
+    /// The hash.
     #[must_use]
     pub fn value(&self) -> u128 {
         self.0
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn known_names() {
+    fn hashes_equal_the_published_test_vectors() {
         let name = |text: &str| {
             let mut name = Fingerprint::default();
             name.add(text.as_bytes());

@@ -1,4 +1,4 @@
-//! Indices as distinct types, so that a patch is never looked up among elements.
+//! Indices as distinct types, so that the compiler refuses the index of a patch for an element.
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {
@@ -9,13 +9,14 @@ macro_rules! id {
         impl $name {
             /// The id of the `index`-th item.
             ///
-            /// Panics where `index` does not fit in 32 bits: sizes are checked when a scene is loaded.
+            /// # Panics
+            /// Panics if `index` does not fit in 32 bits; the loader checks sizes, so no loaded scene is that large.
             #[must_use]
             pub fn new(index: usize) -> Self {
                 Self(u32::try_from(index).expect("more than 2^32 items"))
             }
 
-            /// The place in the array that this id indexes.
+            /// Index into the array of such items.
             #[must_use]
             pub fn index(self) -> usize {
                 self.0 as usize

@@ -1,4 +1,4 @@
-//! Floor 0: what every other floor speaks in. No scene, no GPU.
+//! Floor 0: types and functions that every other floor uses; they depend on no scene and no GPU.
 
 pub mod bounds;
 pub mod colour;

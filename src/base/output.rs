@@ -1,15 +1,15 @@
-//! Files that appear under their name only when they are whole.
+//! Writes files that appear under their name only when they are complete.
 
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::Path;
 
-/// Writes a file under a temporary name in the same folder and renames it: a stopped run leaves no half file.
+/// Writes a file under a temporary name in the same folder and renames it, so that a run that stops leaves no partial file.
 ///
-/// What is there already and is no ordinary file, such as `/dev/null` or a pipe, is written to as it is.
+/// If `path` names something that is not an ordinary file, such as `/dev/null` or a pipe, the bytes are written to it directly.
 ///
 /// # Errors
-/// The folder or the file cannot be written to.
+/// Returns an error if the folder or the file cannot be written to.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if fs::metadata(path).is_ok_and(|found| !found.is_file()) {
         return fs::write(path, bytes);
@@ -18,7 +18,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
-        // As any new file: readable as the user's mask allows; temporary files are private by default.
+        // The user's mask decides who may read the file, as for any new file; temporary files are private by default.
         use std::os::unix::fs::PermissionsExt as _;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_is_replaced_as_a_whole_and_nothing_else_is_left() {
+    fn a_file_is_replaced_and_no_temporary_file_is_left() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("light.bin");
         for bytes in [&b"first and longer"[..], b"second"] {
@@ -45,7 +45,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn a_new_file_has_the_rights_of_any_new_file() {
+    fn a_new_file_has_the_usual_permissions() {
         use std::os::unix::fs::PermissionsExt as _;
         let folder = tempfile::tempdir().expect("a folder");
         let (ours, usual) = (folder.path().join("ours"), folder.path().join("usual"));
@@ -57,7 +57,7 @@ mod tests {
 
     #[cfg(unix)]
     #[test]
-    fn devices_stay_devices() {
+    fn a_device_file_is_written_to_and_not_replaced() {
         let device = Path::new("/dev/null");
         write_whole(device, b"gone").expect("written");
         assert!(!fs::metadata(device).expect("there").is_file());

@@ -1,4 +1,4 @@
-//! Long work tells how far it is, can be cancelled, and makes room for a frame to be drawn.
+//! Progress reports of long work, its cancellation, and its pauses while the viewer draws a frame.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex};
@@ -12,7 +12,7 @@ pub enum Stage {
     Mesh,
     /// Direct light by rays.
     Direct,
-    /// Progressive refinement: the done share is the share of light that has been shot.
+    /// Progressive refinement; the reported progress is the share of the light that has been shot.
     Solve,
     /// Indirect light at the vertices.
     Gather,
@@ -21,7 +21,7 @@ pub enum Stage {
 }
 
 impl Stage {
-    /// What a progress bar calls this stage.
+    /// Name of the stage in a progress bar.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
@@ -35,20 +35,20 @@ impl Stage {
     }
 }
 
-/// What long work reports to and asks of whoever started it.
+/// Connects long work with its caller.
 ///
-/// The work calls [`Progress::report`] and [`Progress::rest`] between small steps and stops where
-/// [`Progress::is_cancelled`], keeping what it has.
+/// The work calls [`Progress::report`] and [`Progress::rest`] between small steps. When [`Progress::is_cancelled`] returns
+/// true, it stops and returns what it has computed so far.
 pub trait Progress: Sync {
-    /// `done` of the stage's work, 0..1.
+    /// Reports that the share `done` of the stage's work, 0..1, is complete.
     fn report(&self, stage: Stage, done: f32);
-    /// The work shall end soon and keep what is solved.
+    /// Whether the work has to stop at its next step and return its partial result.
     fn is_cancelled(&self) -> bool;
-    /// Blocks while somebody else needs the machine (the viewer while it draws).
+    /// Blocks while the caller needs the processor, as the viewer does while it draws.
     fn rest(&self) {}
 }
 
-/// Nobody watches and nobody cancels.
+/// Ignores all reports and never cancels.
 pub struct Unwatched;
 
 impl Progress for Unwatched {
@@ -58,24 +58,25 @@ impl Progress for Unwatched {
     }
 }
 
-/// A flag that asks for the end of a piece of work; set once.
+/// A flag that cancels work; once set, it stays set.
 #[derive(Debug, Default)]
 pub struct Cancel(AtomicBool);
 
 impl Cancel {
-    /// Asks the work to end.
+    /// Sets the flag.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// The end was asked for.
+    /// Whether the flag is set.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
 
-/// Lets a drawing thread hold a working thread between two steps: the work rests while the gate is closed.
+/// Pauses a working thread between two of its steps while another thread draws: [`Gate::pass`] blocks while the gate is
+/// closed.
 #[derive(Debug, Default)]
 pub struct Gate {
     closed: Mutex<bool>,
@@ -83,12 +84,12 @@ pub struct Gate {
 }
 
 impl Gate {
-    /// The work pauses at its next step.
+    /// Closes the gate: the work pauses at its next step.
     pub fn close(&self) {
         *self.lock() = true;
     }
 
-    /// The work goes on.
+    /// Opens the gate: the work continues.
     pub fn open(&self) {
         *self.lock() = false;
         self.opened.notify_all();

@@ -1,4 +1,4 @@
-//! Deterministic sample points: every random choice in the program is a pure function of an index.
+//! Deterministic sample points: every pseudo-random number in the program is a pure function of an index.
 
 use glam::{Vec2, Vec3};
 
@@ -10,7 +10,7 @@ pub fn hash(x: u32) -> u32 {
     (word >> 22) ^ word
 }
 
-/// Uniform number in [0, 1) from a hash value.
+/// Uniform number in [0, 1) from the upper 24 bits of a hash value.
 #[must_use]
 pub fn unit_float(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
@@ -21,7 +21,7 @@ pub fn unit_float(bits: u32) -> f32 {
 /// Source: Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
 #[must_use]
 pub fn r2(index: u32, seed: u32) -> Vec2 {
-    // Fractions of 2^32 keep the sequence exact for any index.
+    // The fractions 1/g and 1/g^2 of 2^32, g the plastic number: integer arithmetic is exact for any index.
     const STEP_X: u32 = 3_242_174_889;
     const STEP_Y: u32 = 2_447_445_414;
     let x = hash(seed).wrapping_add(index.wrapping_mul(STEP_X));
@@ -29,7 +29,8 @@ pub fn r2(index: u32, seed: u32) -> Vec2 {
     Vec2::new(unit_float(x), unit_float(y))
 }
 
-/// Barycentric coordinates of a uniformly distributed point of a triangle, from a point of the unit square.
+/// Barycentric coordinates of a uniformly distributed point of a triangle, given a uniformly distributed point of the
+/// unit square.
 ///
 /// Source: Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
 #[must_use]
@@ -45,7 +46,9 @@ pub fn triangle_from_square(square: Vec2) -> Vec3 {
     Vec3::new(1.0 - x - y, x, y)
 }
 
-/// Place of a point of the unit square along a Z-shaped space-filling curve.
+/// Position of a point of the unit square along the Z-order curve: the interleaved bits of its coordinates, 16 each.
+///
+/// Source: Morton 1966, "A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing".
 #[must_use]
 pub fn morton_2d(square: Vec2) -> u32 {
     let spread = |x: f32| {
@@ -58,7 +61,8 @@ pub fn morton_2d(square: Vec2) -> u32 {
     spread(square.x) | spread(square.y) << 1
 }
 
-/// Unit direction round `normal`, as likely as its cosine, from a point of the unit square; the density is cosine / pi.
+/// Unit direction in the hemisphere round `normal`, given a uniformly distributed point of the unit square; its
+/// probability density is cos(theta) / pi per steradian.
 #[must_use]
 pub fn cosine_hemisphere(normal: Vec3, square: Vec2) -> Vec3 {
     let (tangent, bitangent) = tangent_frame(normal);
@@ -67,7 +71,7 @@ pub fn cosine_hemisphere(normal: Vec3, square: Vec2) -> Vec3 {
     tangent * (radius * cos) + bitangent * (radius * sin) + normal * (1.0 - square.x).sqrt()
 }
 
-/// Unit vectors `(tangent, bitangent)` that make a right-handed frame with the unit vector `normal`.
+/// Unit vectors `(tangent, bitangent)` that form a right-handed orthonormal frame with the unit vector `normal`.
 ///
 /// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
 #[must_use]
@@ -86,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn frame_is_right_handed_and_orthonormal() {
+    fn the_tangent_frame_is_right_handed_and_orthonormal() {
         for i in 0..200 {
             let p = r2(i, 7);
             let z = 2.0 * p.x - 1.0;

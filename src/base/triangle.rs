@@ -1,4 +1,6 @@
-//! Points and triangles.
+//! Points of triangles: barycentric coordinates, interpolation, the closest point.
+
+use std::ops::{Add, Mul};
 
 use glam::Vec3;
 
@@ -29,7 +31,17 @@ pub fn closest_point([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
     }
 }
 
-/// Barycentric coordinates of a point in the plane of a triangle; the centroid's where it has no area.
+/// Value at the point of a triangle with barycentric coordinates `weights`, interpolated linearly between the values at
+/// its corners.
+#[must_use]
+pub fn interpolate<T>([a, b, c]: [T; 3], weights: Vec3) -> T
+where
+    T: Mul<f32, Output = T> + Add<Output = T>,
+{
+    a * weights.x + b * weights.y + c * weights.z
+}
+
+/// Barycentric coordinates of a point in the plane of a triangle; those of the centroid if the triangle has no area.
 #[must_use]
 pub fn barycentric([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
     let normal = (b - a).cross(c - a);
@@ -52,7 +64,7 @@ mod tests {
             let nearest = closest_point(corners, p);
             for j in 0..400 {
                 let w = triangle_from_square(r2(j, 5));
-                let sample = corners[0] * w.x + corners[1] * w.y + corners[2] * w.z;
+                let sample = interpolate(corners, w);
                 assert!(nearest.distance(p) <= sample.distance(p) + 1e-4, "{p}: {nearest} but {sample}");
             }
         }

@@ -37,8 +37,8 @@ pub fn run(args: &InfoArgs) -> Result<()> {
 }
 
 fn write_report(out: &mut String, scene: &Scene) -> fmt::Result {
-    let (low, high) = scene.bounds();
-    let size = high - low;
+    let bounds = scene.bounds();
+    let size = bounds.size();
     writeln!(out, "{}", scene.name)?;
     row(out, "triangles", scene.triangles.len())?;
     row(out, "vertices", scene.vertices.len())?;
@@ -47,7 +47,7 @@ fn write_report(out: &mut String, scene: &Scene) -> fmt::Result {
     row(out, "textures", scene.textures.len())?;
     if !scene.triangles.is_empty() {
         row(out, "size", format_args!("{:.3} x {:.3} x {:.3} m (x, y up, z)", size.x, size.y, size.z))?;
-        row(out, "bounds", format_args!("{low:.3} to {high:.3}"))?;
+        row(out, "bounds", format_args!("{:.3} to {:.3}", bounds.low, bounds.high))?;
         row(out, "area", format_args!("{:.3} m2", scene.area()))?;
     }
     section(out, "lights", scene.lights.iter().map(|light| (light.name.clone(), describe_light(light))))?;

@@ -7,6 +7,7 @@ use super::*;
 use crate::baked::GroupLight;
 use crate::base::ids::TriangleId;
 use crate::base::sampling::{r2, triangle_from_square};
+use crate::base::triangle::interpolate;
 use crate::patch::MeshSettings;
 use crate::scene::builtin;
 
@@ -40,7 +41,7 @@ fn places() -> impl Iterator<Item = Vec3> {
 }
 
 fn between<T: std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T> + Copy>(of: [T; 3], weights: Vec3) -> T {
-    of[0] * weights.x + of[1] * weights.y + of[2] * weights.z
+    interpolate(of, weights)
 }
 
 /// Each place of a lightmap: its triangle, where it is in the world, and the light that the texture shows there.

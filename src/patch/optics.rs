@@ -2,7 +2,7 @@
 
 use std::f32::consts::PI;
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::Vec3;
 use rayon::prelude::*;
 
 use super::{Element, PatchMesh};
@@ -29,7 +29,7 @@ fn evaluate_element(element: &mut Element, vertices: &[Vertex], scene: &Scene) {
         // The first point alone is the centroid.
         let weights =
             if num_samples == 1 { Vec3::splat(1.0 / 3.0) } else { triangle_from_square(r2(i, element.triangle.0)) };
-        let (uv, colour) = interpolate(corners, weights);
+        let (uv, colour) = Vertex::uv_and_colour_at(corners, weights);
         let point = material.at(&scene.textures, uv, colour);
         solid += point.opacity;
         reflected += point.opacity * point.reflectance;
@@ -50,10 +50,4 @@ fn varies(material: &Material, corners: [&Vertex; 3]) -> bool {
         || material.metallic_roughness_texture.is_some()
         || corners[0].colour != corners[1].colour
         || corners[0].colour != corners[2].colour
-}
-
-fn interpolate(corners: [&Vertex; 3], weights: Vec3) -> ([Vec2; 2], Vec4) {
-    let [a, b, c] = corners;
-    let uv = [0, 1].map(|set| a.uv[set] * weights.x + b.uv[set] * weights.y + c.uv[set] * weights.z);
-    (uv, a.colour * weights.x + b.colour * weights.y + c.colour * weights.z)
 }

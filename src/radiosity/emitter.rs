@@ -8,6 +8,7 @@ use glam::{Vec2, Vec3};
 use crate::base::colour::luminance;
 use crate::base::ids::{ElementId, GroupId};
 use crate::base::sampling::{r2, triangle_from_square};
+use crate::base::triangle::interpolate;
 use crate::form_factor::analytic::point_to_polygon;
 use crate::patch::PatchMesh;
 use crate::scene::{Scene, area_of, normal_of};
@@ -81,8 +82,7 @@ impl Emitters {
     /// Where the emission has a texture its elements are the triangles, else the input triangles: the closed form does not
     /// care how finely a plain panel is cut.
     pub(super) fn new(scene: &Scene, mesh: &PatchMesh) -> Self {
-        let (low, high) = scene.bounds();
-        let place_size = PLACE_SHARE * (high - low).max_element().max(f32::MIN_POSITIVE);
+        let place_size = PLACE_SHARE * scene.bounds().extent().max(f32::MIN_POSITIVE);
         let mut by_surface: BTreeMap<SurfaceKey, Vec<EmitterTriangle>> = BTreeMap::new();
         for (t, root) in mesh.roots.iter().enumerate() {
             let triangle = &scene.triangles[t];
@@ -158,7 +158,7 @@ impl Emitters {
         let triangle = &self.triangles[target.triangle];
         let weights = triangle_from_square(Vec2::new(within, square.y));
         let [a, b, c] = triangle.corners;
-        let on_emitter = a * weights.x + b * weights.y + c * weights.z;
+        let on_emitter = interpolate([a, b, c], weights);
         let offset = on_emitter - point;
         let cosines = normal.dot(offset).max(0.0) * (-triangle.normal.dot(offset)).max(0.0);
         let density = target.luminance / (luminance(triangle.exitance) * triangle.area);

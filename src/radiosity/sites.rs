@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use crate::base::ids::ElementId;
 use crate::base::sampling::{hash, r2, triangle_from_square};
+use crate::base::triangle::interpolate;
 use crate::form_factor::Viewpoint;
 use crate::patch::{Element, LightVertex, Patch, PatchMesh};
 use crate::scene::{Scene, normal_of};
@@ -29,8 +30,7 @@ impl Sites {
     /// Sites for a scene of its size.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
-        let (low, high) = scene.bounds();
-        Self { height: HEIGHT * (high - low).max_element() }
+        Self { height: HEIGHT * scene.bounds().extent() }
     }
 
     /// One viewpoint a light vertex `[l]`, with its shading normal.
@@ -80,7 +80,7 @@ impl Sites {
             let normal = normal_of(corners);
             (0..num_points as u32).map(move |i| {
                 let weights = triangle_from_square(r2(i, e as u32));
-                let position = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+                let position = interpolate(corners, weights);
                 self.viewpoint(position, normal, hash(e as u32) ^ i)
             })
         };
@@ -103,7 +103,7 @@ impl Sites {
                 let corners = mesh.corners(&mesh.elements[element.index()]);
                 let seed = hash(element.0) ^ i;
                 let weights = triangle_from_square(r2(i, element.0));
-                let position = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+                let position = interpolate(corners, weights);
                 self.viewpoint(position, normal_of(corners), seed)
             })
             .collect()

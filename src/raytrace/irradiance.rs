@@ -113,8 +113,7 @@ impl Place {
 
     /// The surface that the point lies on.
     pub(super) fn surface(paths: &PathTracer<'_>, point: &MeasuringPoint) -> Option<Hit> {
-        let (low, high) = paths.scene().bounds();
-        let reach = REACH * (high - low).max_element();
+        let reach = REACH * paths.scene().bounds().extent();
         let normal = point.normal.normalize();
         paths.tracer.nearest(point.position + normal * reach, -normal, 2.0 * reach)
     }

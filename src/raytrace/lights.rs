@@ -10,6 +10,7 @@ use super::sampler::Sampler;
 use crate::base::colour::luminance;
 use crate::base::ids::TriangleId;
 use crate::base::sampling::{cosine_hemisphere, r2, triangle_from_square};
+use crate::base::triangle::interpolate;
 use crate::scene::{Arrival, Scene, area_of, normal_of};
 
 /// Places of a triangle at which the texture of its glow is looked up to guess its power.
@@ -93,7 +94,7 @@ impl<'a> Lights<'a> {
         let emitter = &self.emitters[chosen];
         let weights = triangle_from_square(square);
         let [a, b, c] = emitter.corners;
-        let point = a * weights.x + b * weights.y + c * weights.z;
+        let point = interpolate([a, b, c], weights);
         let offset = point - place;
         let direction = offset.normalize_or_zero();
         let cosine = emitter.cosine(-direction);
@@ -124,7 +125,7 @@ impl<'a> Lights<'a> {
         let normal = if is_back { -emitter.normal } else { emitter.normal };
         let surface = self.scene.surface_at(emitter.triangle, weights);
         Some(Emission {
-            point: a * weights.x + b * weights.y + c * weights.z,
+            point: interpolate([a, b, c], weights),
             normal,
             direction: cosine_hemisphere(normal, sampler.square()),
             flux: surface.emission * (surface.opacity * PI * emitter.area * num_sides * whole / power),

@@ -5,6 +5,7 @@
 use glam::Vec3;
 
 use crate::base::ids::TriangleId;
+use crate::base::triangle::interpolate;
 use crate::scene::Scene;
 
 /// The unit normal that the normal map of a triangle's material tells at a point, given by the weights of the corners, on
@@ -22,7 +23,7 @@ pub(super) fn mapped_normal(scene: &Scene, triangle: TriangleId, weights: Vec3, 
     let tangent = right.reject_from_normalized(smooth).try_normalize()?;
     let across = smooth.cross(tangent);
     let bitangent = if across.dot(down) > 0.0 { -across } else { across };
-    let at = a * weights.x + b * weights.y + c * weights.z;
+    let at = interpolate([a, b, c], weights);
     let stored = scene.textures[slot.texture.index()].sample_linear(at).truncate() * 2.0 - 1.0;
     let relief = stored * Vec3::new(*scale, *scale, 1.0);
     (tangent * relief.x + bitangent * relief.y + smooth * relief.z).try_normalize()

@@ -92,7 +92,6 @@ impl Chance {
 impl<'a> PathTracer<'a> {
     pub(super) fn new(tracer: &'a Tracer<'a>, max_bounces: u32, has_specular: bool) -> Self {
         let scene = tracer.scene();
-        let (low, high) = scene.bounds();
         Self {
             tracer,
             lights: Lights::new(scene),
@@ -100,7 +99,7 @@ impl<'a> PathTracer<'a> {
             max_bounces,
             has_specular,
             has_panes: has_specular && scene.materials.iter().any(|material| material.transmission > 0.0),
-            height: HEIGHT * (high - low).max_element(),
+            height: HEIGHT * scene.bounds().extent(),
             has_blending: scene.materials.iter().any(|material| material.alpha_mode == AlphaMode::Blend),
         }
     }

@@ -11,6 +11,7 @@ use super::specular::{Specular, SpecularWay};
 use crate::base::colour::luminance;
 use crate::base::ids::TriangleId;
 use crate::base::sampling::cosine_hemisphere;
+use crate::base::triangle::interpolate;
 use crate::scene::{Scene, edge_cross};
 use crate::trace::Hit;
 
@@ -71,7 +72,7 @@ impl Surface {
             triangle: hit.triangle,
             barycentric: weights,
             is_front: hit.is_front,
-            position: a * weights.x + b * weights.y + c * weights.z,
+            position: interpolate([a, b, c], weights),
             geometric,
             normal: geometric,
             to_viewer: -ray.direction,
@@ -107,7 +108,7 @@ impl Surface {
     fn shading_normal(&self, scene: &Scene, is_mapped: bool) -> Vec3 {
         let [a, b, c] = scene.triangles[self.triangle.index()].vertices.map(|v| scene.vertices[v as usize].normal);
         let weights = self.barycentric;
-        let smooth = (a * weights.x + b * weights.y + c * weights.z).normalize_or_zero();
+        let smooth = interpolate([a, b, c], weights).normalize_or_zero();
         let smooth = if smooth.dot(self.geometric) < 0.0 { -smooth } else { smooth };
         let side = if self.is_front { 1.0 } else { -1.0 };
         let mapped = is_mapped.then(|| mapped_normal(scene, self.triangle, weights, side * smooth)).flatten();

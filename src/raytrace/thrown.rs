@@ -20,6 +20,7 @@ use super::stored::StoredLight;
 use crate::base::ids::TriangleId;
 use crate::base::progress::{Progress, Stage};
 use crate::base::sampling::{cosine_hemisphere, triangle_from_square};
+use crate::base::triangle::interpolate;
 use crate::scene::{Scene, area_of, normal_of};
 
 /// Extended form factors that are kept.
@@ -114,7 +115,7 @@ impl Element {
         for index in 0..num_rays {
             let mut sampler = Sampler::new(triangle.0, index);
             let weights = triangle_from_square(sampler.square());
-            let point = corners[0] * weights.x + corners[1] * weights.y + corners[2] * weights.z;
+            let point = interpolate(corners, weights);
             let origin = rays.above(point, normal);
             element.through_panes += share * rays.irradiance_through_panes(origin, normal, &mut sampler);
             let ray = Ray { origin, direction: cosine_hemisphere(normal, sampler.square()), chance: Chance::Only };

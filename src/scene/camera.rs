@@ -2,6 +2,8 @@
 
 use glam::{Mat4, Quat, Vec3};
 
+use crate::base::bounds::Bounds;
+
 /// A camera placed in the world; it looks along its own -Z with +Y up (glTF).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
@@ -11,21 +13,21 @@ pub struct Camera {
     pub position: Vec3,
     /// Rotation from view space to world space.
     pub world_from_view: Quat,
-    /// How it projects.
+    /// Its projection.
     pub projection: Projection,
 }
 
 /// Projection of a camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
-    /// Vertical field of view in radians.
+    /// Perspective projection.
     Perspective {
-        /// Full vertical angle, radians.
+        /// Vertical field of view (the full angle), radians.
         fov_y: f32,
     },
-    /// Half the height of the view in metres.
+    /// Parallel projection.
     Orthographic {
-        /// Half height, metres.
+        /// Half the height of the view, metres.
         half_height: f32,
     },
 }
@@ -43,13 +45,13 @@ impl Camera {
         }
     }
 
-    /// A camera that sees the whole box from above one corner: for scenes that bring none.
+    /// A camera above one corner of the box that sees all of it; the default for scenes without a camera.
     #[must_use]
-    pub fn framing((low, high): (Vec3, Vec3)) -> Self {
+    pub fn framing(bounds: Bounds) -> Self {
         let fov_y = 45f32.to_radians();
-        let centre = 0.5 * (low + high);
-        let radius = (0.5 * (high - low).length()).max(1e-3);
-        // At this distance the sphere round the box just touches the edges of the view.
+        let centre = bounds.centre();
+        let radius = (0.5 * bounds.diagonal()).max(1e-3);
+        // At this distance the bounding sphere touches the edges of the view.
         let distance = radius / (0.5 * fov_y).sin();
         let direction = Vec3::new(0.5, 0.4, 1.0).normalize();
         Self::looking_at("overview", centre + distance * direction, centre, fov_y)
@@ -75,7 +77,7 @@ mod tests {
     #[test]
     fn framing_sees_every_corner_of_the_box() {
         let (low, high) = (Vec3::new(-3.0, 0.0, 2.0), Vec3::new(5.0, 2.5, 30.0));
-        let camera = Camera::framing((low, high));
+        let camera = Camera::framing(Bounds { low, high });
         let projection = glam::camera::rh::proj::directx::perspective_infinite_reverse(45f32.to_radians(), 1.0, 0.01);
         for i in 0..8u32 {
             let corner = Vec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low);
@@ -85,8 +87,8 @@ mod tests {
     }
 
     #[test]
-    fn framing_of_a_point_is_a_camera_all_the_same() {
-        let camera = Camera::framing((Vec3::ONE, Vec3::ONE));
+    fn framing_a_single_point_gives_a_finite_camera() {
+        let camera = Camera::framing(Bounds { low: Vec3::ONE, high: Vec3::ONE });
         assert!(camera.position.is_finite() && camera.position != Vec3::ONE);
     }
 }

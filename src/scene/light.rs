@@ -1,4 +1,7 @@
-//! Punctual lights (KHR_lights_punctual): no size, no patch; their first bounce is injected as direct irradiance.
+//! Punctual lights (KHR_lights_punctual) and the irradiance that arrives from them.
+//!
+//! A punctual light has no area, so it is no patch of the radiosity system: its direct irradiance is computed at the
+//! receivers, and radiosity carries the reflected light on.
 
 use glam::Vec3;
 
@@ -12,57 +15,87 @@ pub struct Light {
     pub name: String,
     /// Kind and place.
     pub kind: LightKind,
-    /// Colour times intensity per channel: candela for point and spot, lux for directional; the largest of a [`Profile`].
+    /// Colour times intensity per channel: candela for point and spot, lux for directional; with a [`Profile`], the
+    /// largest intensity over all directions.
     pub intensity: Vec3,
-    /// Distance at which it ends, metres; none means never.
+    /// Distance beyond which no light arrives, metres; `None` for an unlimited range.
     pub range: Option<f32>,
-    /// How a point light's intensity depends on direction; none is the same everywhere.
+    /// Directional distribution of a point light's intensity; `None` for the same intensity in all directions.
     pub profile: Option<Profile>,
-    /// The group that dims it.
+    /// The light group with which it is dimmed.
     pub group: GroupId,
 }
 
 /// Kinds of punctual light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LightKind {
-    /// Shines everywhere from a point.
+    /// Emits from a point in all directions.
     Point {
         /// Metres.
         position: Vec3,
     },
-    /// Shines in a cone.
+    /// Emits from a point in a cone.
     Spot {
         /// Metres.
         position: Vec3,
         /// Unit axis, away from the light.
         direction: Vec3,
-        /// Half angle where the falloff begins, radians.
+        /// Half angle at which the falloff begins, radians.
         inner_angle: f32,
-        /// Half angle where the light ends, radians.
+        /// Half angle of the cone, beyond which nothing is emitted, radians.
         outer_angle: f32,
     },
-    /// Shines from infinity.
+    /// Parallel light from infinity.
     Directional {
         /// Unit vector in which the light travels.
         direction: Vec3,
     },
 }
 
-/// Light that would arrive at a point if nothing stood between.
+/// Light that arrives at a point if no surface blocks it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arrival {
     /// Unit vector from the point towards the light.
     pub to_light: Vec3,
     /// Distance to the light, metres; infinite for directional.
     pub distance: f32,
-    /// Irradiance on a surface that faces the light, lux per channel.
+    /// Irradiance on a surface perpendicular to the light, lux per channel.
     pub irradiance: Vec3,
 }
 
 impl Light {
-    /// Unoccluded arrival at `point`, before the receiver's cosine.
+    /// A light without name, range limit and profile, in light group 0; `intensity` in candela, for a directional one in lux.
+    #[must_use]
+    pub fn new(kind: LightKind, intensity: Vec3) -> Self {
+        Self { name: String::new(), kind, intensity, range: None, profile: None, group: GroupId(0) }
+    }
+
+    /// A point light of `intensity` candela per channel.
+    #[must_use]
+    pub fn point(position: Vec3, intensity: Vec3) -> Self {
+        Self::new(LightKind::Point { position }, intensity)
+    }
+
+    /// A spot light of `intensity` candela per channel along the unit vector `direction`, with the half angles at which the
+    /// falloff begins and at which the cone ends, radians.
+    #[must_use]
+    pub fn spot(position: Vec3, direction: Vec3, [inner_angle, outer_angle]: [f32; 2], intensity: Vec3) -> Self {
+        Self::new(LightKind::Spot { position, direction, inner_angle, outer_angle }, intensity)
+    }
+
+    /// Parallel light that travels along the unit vector `direction`, with `illuminance` lux per channel on a surface
+    /// perpendicular to it.
+    #[must_use]
+    pub fn directional(direction: Vec3, illuminance: Vec3) -> Self {
+        Self::new(LightKind::Directional { direction }, illuminance)
+    }
+
+    /// Light that arrives at `point` if no surface blocks it, before the cosine of the receiver.
     ///
-    /// Equation: E = I / r^2 x (cone or share of a photometric table) x window, with the cone and range formulas of KHR_lights_punctual.
+    /// E = I / r^2 x a x w, where a is the attenuation by the spot's cone, or the relative intensity of the photometric
+    /// profile, and w = clamp(1 - (r / range)^4, 0, 1) brings the light to zero at its range.
+    ///
+    /// Source: KHR_lights_punctual, sections "Inner and Outer Cone Angles" and "Range Property".
     #[must_use]
     pub fn arrival(&self, point: Vec3) -> Arrival {
         match self.kind {

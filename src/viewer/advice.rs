@@ -1,7 +1,6 @@
 //! What the loader and the mesh doctor say of a scene, and where it is.
 
-use glam::Vec3;
-
+use crate::base::bounds::Bounds;
 use crate::scene::Scene;
 use crate::scene::doctor::{self, Place};
 
@@ -34,10 +33,9 @@ impl Advice {
 
     /// A box round one of the places, with some of its surroundings.
     #[must_use]
-    pub fn bounds(&self, place: usize) -> Option<(Vec3, Vec3)> {
-        let ends = || self.places.get(place).into_iter().flat_map(|place| place.lines.iter().flatten().copied());
-        let (low, high) = (ends().reduce(Vec3::min)?, ends().reduce(Vec3::max)?);
-        Some((low - SURROUNDINGS, high + SURROUNDINGS))
+    pub fn bounds(&self, place: usize) -> Option<Bounds> {
+        let Bounds { low, high } = Bounds::around(self.places.get(place)?.lines.iter().flatten().copied())?;
+        Some(Bounds { low: low - SURROUNDINGS, high: high + SURROUNDINGS })
     }
 }
 
@@ -53,8 +51,8 @@ mod tests {
         scene.triangles.remove(0);
         let advice = Advice::of_scene(&scene);
         let open = advice.iter().find(|advice| advice.text.contains("open edge")).expect("the hole is found");
-        let (low, high) = open.bounds(0).expect("it has a place");
-        assert!((high - low).min_element() >= 2.0 * SURROUNDINGS && low.is_finite(), "{low} {high}");
+        let bounds = open.bounds(0).expect("it has a place");
+        assert!(bounds.size().min_element() >= 2.0 * SURROUNDINGS && bounds.low.is_finite(), "{bounds:?}");
         assert_eq!(Advice::new("no lights").bounds(0), None);
     }
 }

@@ -5,6 +5,7 @@
 
 use glam::{Quat, Vec3};
 
+use crate::base::bounds::Bounds;
 use crate::scene::{Camera, Projection};
 
 /// Vertical field of view of a file that brings no camera, radians.
@@ -92,10 +93,10 @@ impl Eye {
     }
 
     /// Moves back along the line of sight until the whole box is in view.
-    pub fn frame(&mut self, (low, high): (Vec3, Vec3), aspect: f32) {
-        let radius = (0.5 * (high - low).length()).max(1e-3);
+    pub fn frame(&mut self, bounds: Bounds, aspect: f32) {
+        let radius = (0.5 * bounds.diagonal()).max(1e-3);
         let half_angle = 0.5 * self.fov_y.min(2.0 * ((0.5 * self.fov_y).tan() * aspect).atan());
-        self.position = 0.5 * (low + high) - self.forward() * (radius / half_angle.sin());
+        self.position = bounds.centre() - self.forward() * (radius / half_angle.sin());
     }
 
     /// The eye as a camera that pictures are taken with.
@@ -207,13 +208,14 @@ mod tests {
 
     #[test]
     fn the_framed_box_is_inside_the_picture() {
-        let bounds = (Vec3::new(-3.0, 0.0, -2.0), Vec3::new(5.0, 4.0, 9.0));
+        let bounds = Bounds { low: Vec3::new(-3.0, 0.0, -2.0), high: Vec3::new(5.0, 4.0, 9.0) };
         for aspect in [0.5, 1.0, 2.0] {
             let mut eye = Eye::looking_along(Vec3::ZERO, Vec3::new(1.0, -0.5, 0.3));
             eye.frame(bounds, aspect);
             let projection_from_world = View::from_camera(&eye.camera(), aspect).projection_from_world();
             for corner in 0..8 {
-                let pick = |bit: u32, axis: usize| if corner >> bit & 1 == 0 { bounds.0[axis] } else { bounds.1[axis] };
+                let pick =
+                    |bit: u32, axis: usize| if corner >> bit & 1 == 0 { bounds.low[axis] } else { bounds.high[axis] };
                 let point = Vec3::new(pick(0, 0), pick(1, 1), pick(2, 2));
                 let clip = projection_from_world * point.extend(1.0);
                 assert!(clip.w > 0.0 && clip.x.abs() <= clip.w && clip.y.abs() <= clip.w, "{aspect} {point} {clip}");

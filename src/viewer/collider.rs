@@ -10,6 +10,7 @@ use obvhs::bvh2::{Bvh2, builder::build_bvh2};
 use obvhs::ray::{Ray, RayHit};
 use obvhs::triangle::Triangle;
 
+use crate::base::bounds::Bounds;
 use crate::base::ids::TriangleId;
 use crate::base::triangle::closest_point;
 use crate::scene::Scene;
@@ -21,7 +22,7 @@ pub struct Collider {
     triangles: Vec<Triangle>,
     /// Their numbers in the scene, in the same order.
     numbers: Vec<TriangleId>,
-    bounds: (Vec3, Vec3),
+    bounds: Bounds,
 }
 
 /// What is seen in a direction.
@@ -76,7 +77,7 @@ impl Collider {
 
     /// Smallest box round the scene.
     #[must_use]
-    pub fn bounds(&self) -> (Vec3, Vec3) {
+    pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use glam::Vec3;
 use winit::window::Fullscreen;
 
 use super::camera::Eye;
@@ -11,6 +10,7 @@ use super::place::Place;
 use super::walkthrough::Walkthrough;
 use super::worker::Source;
 use crate::bake::BakeSettings;
+use crate::base::bounds::Bounds;
 use crate::base::ids::TriangleId;
 use crate::scene::Scene;
 
@@ -209,10 +209,9 @@ impl Walkthrough {
 }
 
 /// Box round an instance.
-fn bounds_of(scene: &Scene, index: usize) -> Option<(Vec3, Vec3)> {
+fn bounds_of(scene: &Scene, index: usize) -> Option<Bounds> {
     let triangles = scene.instances.get(index)?.triangles.clone();
-    let corners = || triangles.clone().flat_map(|t| scene.corners(TriangleId::new(t)));
-    Some((corners().reduce(Vec3::min)?, corners().reduce(Vec3::max)?))
+    Bounds::around(triangles.flat_map(|t| scene.corners(TriangleId::new(t))))
 }
 
 /// `index` moved on by `steps` in a ring of `count`.

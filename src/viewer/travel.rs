@@ -5,6 +5,7 @@ use glam::Vec3;
 use super::camera::{Eye, Glide};
 use super::collider::Collider;
 use super::walk::{Body, Walker};
+use crate::base::bounds::Bounds;
 
 /// Walking pace, metres a second.
 const PACE: f32 = 2.0;
@@ -109,7 +110,7 @@ impl Traveller {
     }
 
     /// Stands back, flying, until a box is in view.
-    pub fn frame(&mut self, bounds: (Vec3, Vec3), aspect: f32) {
+    pub fn frame(&mut self, bounds: Bounds, aspect: f32) {
         self.walker = None;
         self.glide.stop();
         self.eye.frame(bounds, aspect);
@@ -165,10 +166,10 @@ pub struct NoFloor;
 
 /// How long a metre seems to be in a scene of this size: rooms and streets are taken to be in metres; a scene too small
 /// or too large for a person to walk in gets a person of its own size.
-fn scale_of((low, high): (Vec3, Vec3)) -> f32 {
+fn scale_of(bounds: Bounds) -> f32 {
     const SMALLEST: f32 = 3.0;
     const LARGEST: f32 = 1000.0;
-    let size = (high - low).length().max(1e-4);
+    let size = bounds.diagonal().max(1e-4);
     size / size.clamp(SMALLEST, LARGEST)
 }
 

@@ -19,8 +19,7 @@ const USUAL_SIZES: [u32; 2] = [32, 256];
 /// aside: the nearest power of two.
 #[must_use]
 pub fn size_for_patches(scene: &Scene, mesh: &PatchMesh) -> u32 {
-    let (low, high) = scene.bounds();
-    let distance = low.distance(high) / 2.0;
+    let distance = scene.bounds().diagonal() / 2.0;
     // A face is two wide at distance one.
     let pixels = 2.0 * PIXELS_A_PATCH * distance / typical_area(mesh).sqrt();
     let [fewest, most] = USUAL_SIZES;

@@ -120,7 +120,7 @@ mod tests {
     fn all_that_is_in_view_is_drawn_in_its_material_and_not_all_that_there_is() {
         let scene = builtin::gallery();
         let (all, indices) = order(&scene, |_| true);
-        let (low, high) = scene.bounds();
+        let Bounds { low, high } = scene.bounds();
         let eye = low.lerp(high, 0.5);
         for towards in [Vec3::X, Vec3::NEG_X, Vec3::Z, Vec3::NEG_Z, Vec3::new(0.4, -0.8, 0.3)] {
             let clip_from_world =

@@ -95,8 +95,7 @@ impl Casters {
                 instance: triangle.instance,
             });
         }
-        let (low, high) = scene.bounds();
-        let cuts = casters.cuts(ON_EDGE * (high - low).max_element());
+        let cuts = casters.cuts(ON_EDGE * scene.bounds().extent());
         casters.join(&cuts);
         casters
     }

@@ -107,8 +107,7 @@ impl Cutouts {
         if corners.is_empty() {
             return None;
         }
-        let (low, high) = scene.bounds();
-        let nodes = tree(&corners, SLACK * (high - low).max_element());
+        let nodes = tree(&corners, SLACK * scene.bounds().extent());
         let buffer = |contents| {
             let usage = wgpu::BufferUsages::STORAGE;
             gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor {

@@ -75,8 +75,7 @@ impl ExactRays {
                 is_opaque: scene.material_of(id).alpha_mode == AlphaMode::Opaque,
             })
             .collect();
-        let (low, high) = scene.bounds();
-        let slack = Vec3A::splat(SLACK * (high - low).max_element());
+        let slack = Vec3A::splat(SLACK * scene.bounds().extent());
         let boxes: Vec<Aabb> = triangles
             .iter()
             .map(|triangle| {

@@ -48,8 +48,7 @@ pub fn receivers(scene: &Scene, settings: &PlanarSettings) -> Vec<Receiver> {
     if settings.receivers.is_empty() {
         planes.truncate(settings.num_receivers);
     } else {
-        let (low, high) = scene.bounds();
-        let extent = (high - low).max_element();
+        let extent = scene.bounds().extent();
         planes.retain(|plane| settings.receivers.iter().any(|&chosen| is_same_plane(plane.plane, chosen, extent)));
     }
     planes
@@ -57,8 +56,7 @@ pub fn receivers(scene: &Scene, settings: &PlanarSettings) -> Vec<Receiver> {
 
 /// All planes of a scene, the largest first.
 fn planes(scene: &Scene) -> Vec<Receiver> {
-    let (low, high) = scene.bounds();
-    let step = SAME_DISTANCE * (high - low).max_element().max(f32::MIN_POSITIVE);
+    let step = SAME_DISTANCE * scene.bounds().extent().max(f32::MIN_POSITIVE);
     let mut planes: HashMap<[i64; 4], Receiver> = HashMap::new();
     for t in 0..scene.triangles.len() {
         let id = TriangleId::new(t);

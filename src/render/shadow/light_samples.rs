@@ -10,6 +10,7 @@ use glam::{Vec2, Vec3, Vec4};
 
 use crate::base::ids::{GroupId, TriangleId};
 use crate::base::sampling::triangle_from_square;
+use crate::base::triangle::interpolate;
 use crate::scene::{Light, LightKind, Scene, area_of, normal_of};
 
 /// Pieces of one surface closer than this share of the scene's extent shine as one lamp, as in the bake.
@@ -63,8 +64,7 @@ pub fn light_samples(scene: &Scene, per_lamp: u32, radius: f32) -> Vec<LightSamp
     for (lamp, light) in scene.lights.iter().enumerate() {
         add_punctual(light, lamp, if radius > 0.0 { per_lamp } else { 1 }, radius, &mut samples);
     }
-    let (low, high) = scene.bounds();
-    let height = HEIGHT * (high - low).max_element();
+    let height = HEIGHT * scene.bounds().extent();
     for (number, surface) in surfaces(scene).iter().enumerate() {
         surface.add_samples(scene, per_lamp, height, scene.lights.len() + number, &mut samples);
     }
@@ -101,8 +101,7 @@ struct Surface {
 }
 
 fn surfaces(scene: &Scene) -> Vec<Surface> {
-    let (low, high) = scene.bounds();
-    let place_size = PLACE_SHARE * (high - low).max_element().max(f32::MIN_POSITIVE);
+    let place_size = PLACE_SHARE * scene.bounds().extent().max(f32::MIN_POSITIVE);
     let has_backs = scene.triangles.iter().any(|triangle| triangle.is_back_side);
     let mut by_place: BTreeMap<_, Surface> = BTreeMap::new();
     for piece in pieces(scene) {
@@ -174,7 +173,7 @@ impl Surface {
             let corners = scene.corners(id);
             let [a, b, c] = corners;
             let normal = if self.is_back { -normal_of(corners) } else { normal_of(corners) };
-            let position = a * weights.x + b * weights.y + c * weights.z + height * normal;
+            let position = interpolate([a, b, c], weights) + height * normal;
             let radiance = emission(scene, id, weights);
             samples.push(LightSample {
                 light: Light {
@@ -205,10 +204,7 @@ impl Surface {
 
 /// Radiance that a triangle sends from a point, holes left out.
 fn emission(scene: &Scene, id: TriangleId, weights: Vec3) -> Vec3 {
-    let [a, b, c] = scene.triangles[id.index()].vertices.map(|v| &scene.vertices[v as usize]);
-    let uv = [0, 1].map(|set| a.uv[set] * weights.x + b.uv[set] * weights.y + c.uv[set] * weights.z);
-    let colour = a.colour * weights.x + b.colour * weights.y + c.colour * weights.z;
-    let point = scene.material_of(id).at(&scene.textures, uv, colour);
+    let point = scene.surface_at(id, weights);
     point.emission * point.opacity
 }
 

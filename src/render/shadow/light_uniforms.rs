@@ -7,6 +7,7 @@ use wgpu::util::DeviceExt;
 use super::light_samples::LightSample;
 use super::light_space::axes;
 use super::real_time::Subject;
+use crate::base::bounds::Bounds;
 use crate::gpu::Gpu;
 use crate::scene::LightKind;
 
@@ -79,10 +80,10 @@ impl LightUniform {
     }
 }
 
-fn kind(sample: &LightSample, (low, high): (Vec3, Vec3)) -> u32 {
+fn kind(sample: &LightSample, bounds: Bounds) -> u32 {
     let has = |bit: u32, is_on: bool| if is_on { bit } else { 0 };
     let place = sample.place();
-    let is_far = place.truncate().distance(0.5 * (low + high)) > FAR * low.distance(high);
+    let is_far = place.truncate().distance(bounds.centre()) > FAR * bounds.diagonal();
     has(IS_PARALLEL, matches!(sample.light.kind, LightKind::Directional { .. }))
         | has(IS_SURFACE, sample.surface_normal.is_some())
         | has(HAS_CONE, matches!(sample.light.kind, LightKind::Spot { .. }))

@@ -12,6 +12,7 @@ use glam::{Mat4, Vec2, Vec3, Vec3Swizzles};
 use super::light_samples::LightSample;
 use super::light_space::light_from_world;
 use super::shadow_map::MapSettings;
+use crate::base::bounds::Bounds;
 use crate::scene::LightKind;
 
 /// Axes of a cube's faces and what is up on them, in light space, in the order of shaders/shared/map_lookup.wgsl.
@@ -59,8 +60,8 @@ pub struct MapUniform {
 
 impl MapProjection {
     /// What the map of a light sample shows of the scene in a box.
-    pub fn new((low, high): (Vec3, Vec3), sample: &LightSample, settings: &MapSettings) -> Self {
-        let near = NEAR * (high - low).max_element();
+    pub fn new(bounds: Bounds, sample: &LightSample, settings: &MapSettings) -> Self {
+        let near = NEAR * bounds.extent();
         let resolution = settings.resolution as f32;
         let border = BORDER + settings.pcf_radius as f32;
         // As much wider as the border, which is not part of the picture.
@@ -68,7 +69,7 @@ impl MapProjection {
         let light_from_world = light_from_world(sample);
         let (projection_from_light, uniform) = match sample.light.kind {
             LightKind::Directional { .. } => {
-                let (least, most) = box_in_light_space((low, high), light_from_world);
+                let (least, most) = box_in_light_space(bounds, light_from_world);
                 let fitted = Fitted::new((least, most), resolution, widened);
                 (vec![fitted.projection()], fitted.uniform(settings))
             }
@@ -112,7 +113,7 @@ fn reach(settings: &MapSettings) -> u32 {
 }
 
 /// Ends of the box in light space.
-fn box_in_light_space((low, high): (Vec3, Vec3), light_from_world: Mat4) -> (Vec3, Vec3) {
+fn box_in_light_space(Bounds { low, high }: Bounds, light_from_world: Mat4) -> (Vec3, Vec3) {
     let corner = |i: u32| Vec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low);
     let corners: Vec<Vec3> = (0..8).map(|i| light_from_world.transform_point3(corner(i))).collect();
     let least = corners.iter().copied().fold(Vec3::INFINITY, Vec3::min);
@@ -206,10 +207,11 @@ mod tests {
     #[test]
     fn a_directional_map_holds_the_scene() {
         let scene = builtin::gallery();
-        let (low, high) = scene.bounds();
+        let bounds = scene.bounds();
+        let Bounds { low, high } = bounds;
         let sun = sample(LightKind::Directional { direction: Vec3::new(0.3, -0.8, 0.5).normalize() });
-        let maps = MapProjection::new((low, high), &sun, &MapSettings::default());
-        for point in [low, high, Vec3::new(low.x, high.y, low.z), 0.5 * (low + high)] {
+        let maps = MapProjection::new(bounds, &sun, &MapSettings::default());
+        for point in [low, high, Vec3::new(low.x, high.y, low.z), bounds.centre()] {
             let seen = maps.projection_from_world[0].project_point3(point);
             assert!(
                 seen.truncate().abs().max_element() <= 1.0 && (0.0..=1.0).contains(&seen.z),
@@ -221,12 +223,12 @@ mod tests {
     #[test]
     fn the_uniform_finds_points_where_the_projection_draws_them() {
         let scene = builtin::gallery();
-        let (low, high) = scene.bounds();
-        let position = low.lerp(high, 0.6);
+        let bounds = scene.bounds();
+        let position = bounds.low.lerp(bounds.high, 0.6);
         let direction = Vec3::new(0.3, -0.8, 0.5).normalize();
         let spot = LightKind::Spot { position, direction, inner_angle: 0.4, outer_angle: 0.8 };
         for light in [sample(spot), sample(LightKind::Directional { direction })] {
-            let map = MapProjection::new((low, high), &light, &MapSettings::default());
+            let map = MapProjection::new(bounds, &light, &MapSettings::default());
             let point = position + 1.7 * direction + Vec3::new(0.2, 0.1, -0.3);
             let drawn = map.projection_from_world[0].project_point3(point);
             // As `in_map` of the shader.

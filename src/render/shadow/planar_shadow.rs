@@ -72,9 +72,9 @@ impl PlanarSettings {
     /// Chooses the plane of a triangle to receive shadows, or drops it again.
     pub fn toggle_receiver(&mut self, scene: &Scene, triangle: TriangleId) {
         let Some(plane) = plane_of(scene, triangle) else { return };
-        let (low, high) = scene.bounds();
+        let extent = scene.bounds().extent();
         let before = self.receivers.len();
-        self.receivers.retain(|&chosen| !is_same_plane(chosen, plane, (high - low).max_element()));
+        self.receivers.retain(|&chosen| !is_same_plane(chosen, plane, extent));
         if self.receivers.len() == before {
             self.receivers.push(plane);
         }
@@ -138,8 +138,7 @@ impl PlanarShadowPass {
     /// group 0 is set.
     pub fn draw(&self, gpu: &Gpu, pass: &mut wgpu::RenderPass<'_>, subject: Subject<'_>, light: Vec4) {
         let (settings, shadow) = self.shadow.as_ref().expect("receivers have been chosen");
-        let (low, high) = subject.shadows.scene().bounds();
-        let clearance = CLEARANCE * (high - low).max_element();
+        let clearance = CLEARANCE * subject.shadows.scene().bounds().extent();
         for ((receiver, corners), number) in self.receivers.iter().zip(1..) {
             // Which pixels are on this receiver.
             pass.set_stencil_reference(RECEIVER * number);

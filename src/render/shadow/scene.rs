@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, Mutex, MutexGuard, OnceLock, PoisonError};
 
-use glam::{Vec3, Vec4};
+use glam::Vec4;
 use wgpu::util::DeviceExt;
 
 use super::casters::Casters;
@@ -10,13 +10,14 @@ use super::cutout_shadow::Cutouts;
 use super::exact_rays::ExactRays;
 use super::light_samples::{LightSample, light_samples};
 use super::map_cache::MapCache;
+use crate::base::bounds::Bounds;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
 
 /// What shadows ask of a scene beyond its buffers.
 pub struct ShadowScene {
     scene: Arc<Scene>,
-    bounds: (Vec3, Vec3),
+    bounds: Bounds,
     /// Triangles that throw shadows.
     pub(super) casters: Casters,
     /// Each corner of the casters twice, as `silhouette::Hull` counts them.
@@ -68,7 +69,7 @@ impl ShadowScene {
 
     /// The box round it.
     #[must_use]
-    pub fn bounds(&self) -> (Vec3, Vec3) {
+    pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 

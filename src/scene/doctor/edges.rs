@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use glam::{IVec3, Vec3};
 
+use super::finding::{Finding, Kind, Place};
 use super::weld::Welded;
-use super::{Finding, Kind, Place};
 
 /// Distance at which a vertex counts as lying on an edge, as a share of the scene's diagonal: a few steps of rounding.
 const ON_EDGE: f32 = 4e-6;

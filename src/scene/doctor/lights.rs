@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{Finding, Kind, Place};
+use super::finding::{Finding, Kind, Place};
 use crate::base::ids::TriangleId;
 use crate::scene::{Light, LightKind, Scene};
 

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 
+use super::finding::{Finding, Kind, Place};
 use super::weld::Welded;
-use super::{Finding, Kind, Place};
 
 /// Distance at which planes are one, as a share of the scene's diagonal.
 const SAME_PLANE: f64 = 1e-6;

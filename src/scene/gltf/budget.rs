@@ -7,10 +7,10 @@ use gltf::json::accessor::Accessor;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 
-use super::document::Document;
 use super::error::Cause;
-use super::instancing;
-use super::tree::PlacedNode;
+use super::file::document::Document;
+use super::node::instancing;
+use super::node::tree::PlacedNode;
 
 /// Most vertices or triangles of a scene: about 2 GB.
 const MAX_COUNT: u64 = 32_000_000;

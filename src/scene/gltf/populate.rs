@@ -2,12 +2,12 @@
 
 use gltf::json::Index;
 
-use super::devices;
-use super::document::Document;
+use super::camera;
 use super::error::Cause;
-use super::ies;
-use super::mesh::Meshes;
-use super::tree::{PlacedNode, transform};
+use super::file::document::Document;
+use super::light::{photometric, punctual};
+use super::mesh::meshes::Meshes;
+use super::node::tree::{PlacedNode, name_of, transform};
 use crate::scene::{Light, NamedNode, Scene};
 
 /// Fills a scene whose materials are there already.
@@ -16,7 +16,7 @@ pub(super) struct Population<'a> {
     scene: Scene,
     light_definitions: Vec<usize>,
     meshes: Meshes<'a>,
-    profiles: ies::Profiles<'a>,
+    profiles: photometric::Profiles<'a>,
 }
 
 impl<'a> Population<'a> {
@@ -27,7 +27,7 @@ impl<'a> Population<'a> {
             NamedNode { name, parent: placed.parent, transform: transform(placed.node), ..NamedNode::default() }
         };
         scene.nodes = nodes.iter().map(named).collect();
-        Self { document, scene, light_definitions: Vec::new(), meshes, profiles: ies::Profiles::new(document) }
+        Self { document, scene, light_definitions: Vec::new(), meshes, profiles: photometric::Profiles::new(document) }
     }
 
     /// Adds what hangs on the node at place `place` of the list.
@@ -41,12 +41,12 @@ impl<'a> Population<'a> {
             let camera = self.document.find(camera, "camera", user)?;
             let name = name_of([&node.name, &camera.name], "camera", self.scene.cameras.len());
             self.scene.nodes[place].camera = Some(self.scene.cameras.len());
-            self.scene.cameras.push(devices::camera(camera, name, world_from_node)?);
+            self.scene.cameras.push(camera::placed(camera, name, world_from_node)?);
         }
         if let Some(light) = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref()) {
             self.place_light(place, placed, light.light)?;
         }
-        if let Some(carried) = ies::carried(node, index)? {
+        if let Some(carried) = photometric::carried(node, index)? {
             self.place_photometric_light(place, placed, &carried)?;
         }
         Ok(())
@@ -56,12 +56,12 @@ impl<'a> Population<'a> {
         &mut self,
         place: usize,
         placed: &PlacedNode<'_>,
-        index: Index<devices::LightDefinition>,
+        index: Index<punctual::LightDefinition>,
     ) -> Result<(), Cause> {
         let PlacedNode { index: node_index, node, world_from_node, .. } = *placed;
         let definition = self.document.find(index, "light", || format!("node {node_index}"))?;
         let name = name_of([&node.name, &definition.name], "light", index.value());
-        let light = devices::light(definition, &name, world_from_node)?;
+        let light = punctual::placed(definition, &name, world_from_node)?;
         self.keep_light(place, light, &name, index.value());
         Ok(())
     }
@@ -70,9 +70,9 @@ impl<'a> Population<'a> {
         &mut self,
         place: usize,
         placed: &PlacedNode<'_>,
-        carried: &ies::Carried,
+        carried: &photometric::Carried,
     ) -> Result<(), Cause> {
-        let definitions = ies::definitions(&self.document.root);
+        let definitions = photometric::definitions(&self.document.root);
         let stated = definitions.get(carried.light).and_then(|definition| definition["name"].as_str());
         let name = name_of([&placed.node.name, &stated.map(str::to_owned)], "photometric light", carried.light);
         let photometry = match self.profiles.get(carried.light) {
@@ -82,7 +82,7 @@ impl<'a> Population<'a> {
                 return Ok(());
             }
         };
-        let light = devices::photometric_light(photometry, carried.factor(), &name, placed.world_from_node)?;
+        let light = photometric::placed(photometry, carried.factor(), &name, placed.world_from_node)?;
         let punctual = self.document.root.extensions.as_ref().and_then(|root| root.khr_lights_punctual.as_ref());
         let num_before = punctual.map_or(0, |punctual| punctual.lights.len());
         self.keep_light(place, light, &name, num_before + carried.light);
@@ -114,10 +114,4 @@ impl<'a> Population<'a> {
         self.scene.notes.extend(notes);
         (self.scene, self.light_definitions)
     }
-}
-
-/// The first name that says something, else a number.
-pub(super) fn name_of(names: [&Option<String>; 2], kind: &str, index: usize) -> String {
-    let given = names.into_iter().flatten().find(|name| !name.trim().is_empty());
-    given.cloned().unwrap_or_else(|| format!("{kind} {index}"))
 }

@@ -1,6 +1,6 @@
 //! Reads the text of LM-63 files, of 1986 to 2019; type C photometry.
 
-use super::Photometry;
+use super::distribution::Photometry;
 
 /// Most intensities of a table.
 const MAX_TABLE: usize = 1 << 20;

@@ -106,8 +106,7 @@ impl Grid {
 
 /// Triangles of the picked instance that lie in the plane of the pick and face the same way.
 fn flat_part(scene: &Scene, pick: &Pick) -> Vec<TriangleId> {
-    let (low, high) = scene.bounds();
-    let tolerance = SAME_PLANE * (high - low).max_element();
+    let tolerance = SAME_PLANE * scene.bounds().extent();
     let front = normal_of(scene.corners(pick.triangle));
     let instance = scene.triangles[pick.triangle.index()].instance;
     let all = (0..scene.triangles.len()).map(TriangleId::new);

@@ -120,8 +120,7 @@ pub fn point_of(pick: &Pick) -> MeasuringPoint {
 
 /// The element of the bake under a point, on the side that its normal shows.
 fn element_at(solved: &Solved, point: &MeasuringPoint) -> Option<usize> {
-    let (low, high) = solved.baked.scene.bounds();
-    let reach = 1e-3 * (high - low).max_element();
+    let reach = 1e-3 * solved.baked.scene.bounds().extent();
     let tracer = Tracer::new(&solved.baked.scene);
     let hit = tracer.nearest(point.position + reach * point.normal, -point.normal, 2.0 * reach)?;
     let front = hit.triangle.index();

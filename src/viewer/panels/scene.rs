@@ -18,7 +18,7 @@ pub fn scene_ui(ui: &mut Ui, selection: &mut Selection, facts: &Facts<'_>, comma
         hint(ui, "Nothing is open.");
         return;
     };
-    let size = scene.bounds().1 - scene.bounds().0;
+    let size = scene.bounds().size();
     row(ui, "Size", format!("{:.1} x {:.1} x {:.1} m", size.x, size.y, size.z));
     variant_ui(ui, scene, facts.variant, commands);
     let filter =

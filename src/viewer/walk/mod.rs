@@ -200,8 +200,7 @@ impl Walker {
     }
 
     fn return_from_the_void(&mut self, collider: &Collider) {
-        let (low, _) = collider.bounds();
-        if self.feet.y < low.y - 2.0 * self.body.height {
+        if self.feet.y < collider.bounds().low.y - 2.0 * self.body.height {
             (self.feet, self.fall_speed, self.is_grounded, self.eye_lag) = (self.safe, 0.0, true, 0.0);
         }
     }

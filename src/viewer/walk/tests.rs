@@ -230,7 +230,7 @@ fn the_gallery_is_walked_through_its_door_up_its_steps_and_back() {
 fn a_random_walk_stays_in_the_gallery() {
     use crate::base::sampling::{hash, unit_float};
     let gallery = Collider::new(&crate::scene::builtin::by_name("gallery").expect("it is built in"));
-    let (low, high) = gallery.bounds();
+    let bounds = gallery.bounds();
     let mut walker = walker(Vec3::new(3.0, 0.0, 3.6), &gallery);
     for step in 0..400 {
         let dice = |salt: u32| unit_float(hash(7 * step + salt));
@@ -239,6 +239,6 @@ fn a_random_walk_stays_in_the_gallery() {
         let frame = 0.25 * dice(3) + 0.001;
         walk(&mut walker, direction * 5.0 * dice(4), 0.5, frame, &gallery);
         let eye = walker.eye();
-        assert!(eye.cmpgt(low).all() && eye.cmplt(high).all(), "step {step}: {eye}");
+        assert!(eye.cmpgt(bounds.low).all() && eye.cmplt(bounds.high).all(), "step {step}: {eye}");
     }
 }

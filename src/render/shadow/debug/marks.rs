@@ -67,8 +67,7 @@ impl Marks {
 
     fn volumes(&mut self, shadows: &ShadowScene, light: Vec4) {
         let casters = &shadows.casters;
-        let (low, high) = shadows.scene().bounds();
-        let reach = REACH * (high - low).length();
+        let reach = REACH * shadows.scene().bounds().diagonal();
         let far = |corner: Vec3| corner + reach * (light.w * corner - light.truncate()).normalize_or_zero();
         for ends in silhouette(casters, &facing(casters, light)) {
             let [a, b] = ends.map(|corner| casters.positions[corner as usize]);

@@ -17,7 +17,7 @@ const MAX_IMAGE_BYTES: u64 = 4 * (MAX_IMAGE_SIDE as u64).pow(2);
 const KTX2_MAGIC: [u8; 12] = *b"\xabKTX 20\xbb\r\n\x1a\n";
 
 /// A decoded image.
-pub(super) struct Pixels {
+pub(crate) struct Pixels {
     pub width: u32,
     pub height: u32,
     /// RGBA bytes, row by row from the top.
@@ -28,7 +28,7 @@ pub(super) struct Pixels {
 /// Number of pixels that an image claims to have, held against the largest side.
 ///
 /// Errors: as [`decode`], but without a look at the pixels.
-pub(super) fn claimed_pixels(encoded: &[u8]) -> Result<u64, String> {
+pub(crate) fn claimed_pixels(encoded: &[u8]) -> Result<u64, String> {
     let (width, height) = if encoded.starts_with(&KTX2_MAGIC) {
         let side = |at: usize| encoded.get(at..at + 4).map_or(0, |b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
         (side(20), side(24))
@@ -52,7 +52,7 @@ fn format_of(encoded: &[u8]) -> Result<ImageFormat, String> {
 /// Decodes an image, whatever its file claims to be.
 ///
 /// Errors: a sentence that says what is wrong.
-pub(super) fn decode(encoded: &[u8]) -> Result<Pixels, String> {
+pub(crate) fn decode(encoded: &[u8]) -> Result<Pixels, String> {
     if encoded.starts_with(&KTX2_MAGIC) {
         return decode_ktx2(encoded);
     }

@@ -1,0 +1,162 @@
+//! A mesh primitive in its own space: vertices and plain triangles, whatever the file's topology.
+
+use gltf::json::Extras;
+use gltf::json::mesh::{Mode, Primitive, Semantic};
+use gltf::json::validation::Checked;
+
+use super::attributes::Attributes;
+use super::influences::{self, Influence};
+use super::topology::{keep_used, triangulate};
+use super::{draco, morph};
+use crate::scene::gltf::error::Cause;
+use crate::scene::gltf::file::document::Document;
+use crate::scene::{Vertex, VertexAttribute};
+
+/// A primitive, ready to be placed.
+#[derive(Clone)]
+pub(crate) struct Geometry {
+    /// Vertices that triangles use, in file order; the normal is zero where the file has none.
+    pub vertices: Vec<Vertex>,
+    /// Corners, counter-clockwise from the front.
+    pub triangles: Vec<[u32; 3]>,
+    /// The file has normals.
+    pub has_normals: bool,
+    /// Stored light at `vertices`.
+    pub irradiance: Vec<VertexAttribute>,
+    /// Joints that move each of `vertices`; empty where there are none.
+    pub influences: Vec<Vec<Influence>>,
+    /// It is the back of a double-sided surface, written out by a bake.
+    pub is_back_side: bool,
+}
+
+impl Geometry {
+    /// Reads a primitive; none where it has no triangles to show (points, lines, no positions).
+    ///
+    /// `uv_sets` are the texture coordinates that its material wants, `weights` those of its morph targets.
+    pub fn read(
+        document: &Document<'_>,
+        primitive: &Primitive,
+        uv_sets: [u32; 2],
+        weights: &[f32],
+        name: &str,
+    ) -> Result<Option<Self>, Cause> {
+        let decoded = draco::decode(document, primitive, name)?;
+        let attributes = Attributes::new(document, primitive, &decoded, name);
+        let Some(positions) = attributes.reader(Semantic::Positions)? else { return Ok(None) };
+        let Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) = primitive.mode else {
+            return Ok(None);
+        };
+        let order = match primitive.indices {
+            Some(index) => attributes.open(index)?.indices()?,
+            None => (0..positions.count() as u32).collect(),
+        };
+        let mut triangles = triangulate(mode, &order);
+        let rows = keep_used(&mut triangles, positions.count()).map_err(|row| dangling_vertex(primitive, row))?;
+        let (mut vertices, has_normals) = attributes.vertices(&rows, uv_sets)?;
+        morph::apply(&attributes, primitive.targets.as_deref().unwrap_or_default(), weights, &rows, &mut vertices)?;
+        Ok(Some(Self {
+            vertices,
+            triangles,
+            has_normals,
+            irradiance: attributes.irradiance(&rows)?,
+            influences: influences::influences(&attributes, &rows)?,
+            is_back_side: says_back_side(&primitive.extras),
+        }))
+    }
+}
+
+fn dangling_vertex(primitive: &Primitive, row: u32) -> Cause {
+    let accessor = primitive.indices.map_or(0, |index| index.value());
+    Cause::accessor(accessor, format!("index {row} points at no vertex"))
+}
+
+fn says_back_side(extras: &Extras) -> bool {
+    let value = extras.as_ref().and_then(|raw| serde_json::from_str::<serde_json::Value>(raw.get()).ok());
+    value.is_some_and(|value| value["back_side"] == true)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use serde_json::json;
+
+    use crate::base::ids::TriangleId;
+    use crate::scene::gltf::fixture::Fixture;
+    use crate::scene::{Scene, normal_of};
+
+    /// A unit square in the xy plane, as strip order wants it, with normals along +Z.
+    fn square() -> Fixture {
+        let mut fixture = Fixture::new();
+        fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
+        fixture.floats("NORMAL", "VEC3", &[0.0, 0.0, 1.0].repeat(4));
+        fixture
+    }
+
+    fn assert_faces_plus_z(scene: &Scene, area: f64) {
+        assert!((scene.area() - area).abs() < 1e-6, "area {}", scene.area());
+        for t in 0..scene.triangles.len() {
+            assert_eq!(normal_of(scene.corners(TriangleId::new(t))), Vec3::Z, "triangle {t}");
+        }
+    }
+
+    #[test]
+    fn triangles_need_no_indices() {
+        assert_faces_plus_z(&Fixture::triangle().load(), 0.5);
+    }
+
+    #[test]
+    fn every_other_triangle_of_a_strip_is_turned() {
+        let mut fixture = square();
+        fixture.primitive()["mode"] = json!(5);
+        assert_faces_plus_z(&fixture.load(), 1.0);
+    }
+
+    #[test]
+    fn a_fan_goes_round_its_first_vertex() {
+        let mut fixture = square();
+        fixture.primitive()["mode"] = json!(6);
+        fixture.indices(&[0, 1, 3, 2]);
+        assert_faces_plus_z(&fixture.load(), 1.0);
+    }
+
+    #[test]
+    fn unused_vertices_are_left_out_and_the_rest_keep_their_order() {
+        let mut fixture = square();
+        fixture.indices(&[3, 2, 1]);
+        let scene = fixture.load();
+        assert_eq!(scene.vertices.len(), 3);
+        assert_eq!(scene.triangles[0].vertices, [2, 1, 0]);
+        assert_eq!(scene.vertices[0].position, Vec3::X);
+    }
+
+    #[test]
+    fn an_index_without_a_vertex_names_its_accessor() {
+        let mut fixture = square();
+        fixture.indices(&[0, 1, 4]);
+        assert!(fixture.error().contains("accessor 2: index 4 points at no vertex"), "{}", fixture.error());
+    }
+
+    #[test]
+    fn lines_and_missing_positions_are_noted() {
+        let mut fixture = square();
+        fixture.primitive()["mode"] = json!(1);
+        let scene = fixture.load();
+        assert!(scene.triangles.is_empty() && scene.notes[0].contains("points or lines"), "{:?}", scene.notes);
+    }
+
+    #[test]
+    fn stored_light_and_back_sides_are_recognised() {
+        let mut fixture = Fixture::triangle();
+        fixture.floats("_IRRADIANCE_DIRECT_0", "VEC3", &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
+        fixture.primitive()["extras"] = json!({"back_side": true});
+        let mut plain = fixture.json["meshes"][0]["primitives"][0].clone();
+        plain["attributes"].as_object_mut().expect("an object").remove("_IRRADIANCE_DIRECT_0");
+        plain["extras"] = json!(null);
+        fixture.json["meshes"][0]["primitives"] = json!([plain, fixture.json["meshes"][0]["primitives"][0]]);
+        let scene = fixture.load();
+        assert_eq!(scene.irradiance[0].name, "_IRRADIANCE_DIRECT_0");
+        assert_eq!(scene.irradiance[0].values[2..4], [Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)]);
+        assert_eq!(scene.irradiance[0].values.len(), scene.vertices.len());
+        assert_eq!([false, true], [0, 1].map(|t: usize| scene.triangles[t].is_back_side));
+    }
+}

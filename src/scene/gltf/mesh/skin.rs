@@ -1,0 +1,159 @@
+//! Skins at their rest pose: each vertex is carried by the joints as the file's nodes place them.
+//!
+//! Source: glTF 2.0, section 3.7.3.
+
+use std::collections::HashMap;
+
+use glam::{DAffine3, DMat4};
+use gltf::json;
+use gltf::json::{Index, Node};
+use serde::Deserialize;
+
+use super::geometry::Geometry;
+use super::influences::Influence;
+use super::normals::normal_matrix;
+use crate::scene::gltf::error::Cause;
+use crate::scene::gltf::file::accessor::Reader;
+use crate::scene::gltf::file::document::Document;
+use crate::scene::gltf::node::tree::PlacedNode;
+
+/// A skin of the file.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct Skin {
+    joints: Vec<u32>,
+    inverse_bind_matrices: Option<u32>,
+}
+
+/// Transforms that a skin's joints apply, mesh to world `[joint]`.
+///
+/// `world_from_node` holds the nodes that stand in the scene, by index in the file.
+pub(crate) fn world_from_joints(
+    document: &Document<'_>,
+    index: Index<json::Skin>,
+    world_from_node: &HashMap<usize, DAffine3>,
+    user: impl Fn() -> String,
+) -> Result<Vec<DAffine3>, Cause> {
+    let dangling = |kind, index| Cause::DanglingIndex { user: user(), kind, index };
+    let skin = document.skins.get(index.value()).ok_or_else(|| dangling("skin", index.value()))?;
+    let skin = Skin::deserialize(skin).map_err(|error| Cause::Broken(format!("skin {index}: {error}")))?;
+    let inverse_bind = match skin.inverse_bind_matrices {
+        Some(accessor) => inverse_bind_matrices(document, Index::new(accessor), index, skin.joints.len())?,
+        None => vec![DAffine3::IDENTITY; skin.joints.len()],
+    };
+    let joints = skin.joints.iter().zip(inverse_bind).map(|(&joint, joint_from_mesh)| {
+        let world_from_joint = world_from_node.get(&(joint as usize));
+        let world_from_joint = world_from_joint.ok_or_else(|| {
+            Cause::Broken(format!("skin {index} hangs on node {joint}, which does not stand in the scene"))
+        })?;
+        Ok(*world_from_joint * joint_from_mesh)
+    });
+    joints.collect()
+}
+
+fn inverse_bind_matrices(
+    document: &Document<'_>,
+    accessor: Index<json::Accessor>,
+    skin: Index<json::Skin>,
+    num_joints: usize,
+) -> Result<Vec<DAffine3>, Cause> {
+    let reader = Reader::new(document, accessor, || format!("skin {skin}"))?;
+    let rows: Vec<u32> = (0..num_joints as u32).collect();
+    let matrices = reader.vectors::<16>(&rows)?;
+    Ok(matrices.into_iter().map(|matrix| DAffine3::from_mat4(DMat4::from_cols_array(&matrix.map(f64::from)))).collect())
+}
+
+/// Where every node of the scene stands.
+pub(crate) fn node_places(nodes: &[PlacedNode<'_>]) -> HashMap<usize, DAffine3> {
+    nodes.iter().map(|placed| (placed.index, placed.world_from_node)).collect()
+}
+
+/// The node wears a skin.
+pub(crate) fn is_worn_by(node: &Node, geometry: &Geometry) -> Option<Index<json::Skin>> {
+    node.skin.filter(|_| !geometry.influences.is_empty())
+}
+
+/// The geometry in world space, carried by its joints.
+///
+/// Errors: a vertex hangs on a joint that the skin lacks.
+pub(crate) fn posed(geometry: &Geometry, world_from_joints: &[DAffine3]) -> Result<Geometry, Cause> {
+    let mut posed = geometry.clone();
+    for (vertex, influences) in posed.vertices.iter_mut().zip(&geometry.influences) {
+        let world_from_mesh = blended(influences, world_from_joints)?;
+        vertex.position = world_from_mesh.transform_point3(vertex.position.as_dvec3()).as_vec3();
+        vertex.normal = (normal_matrix(world_from_mesh.matrix3) * vertex.normal.as_dvec3()).as_vec3();
+    }
+    Ok(posed)
+}
+
+/// Mean of the joints' transforms that carries a vertex.
+fn blended(influences: &[Influence], world_from_joints: &[DAffine3]) -> Result<DAffine3, Cause> {
+    let total: f64 = influences.iter().map(|&(_, weight)| f64::from(weight)).sum();
+    let mut sum = DAffine3 { matrix3: glam::DMat3::ZERO, translation: glam::DVec3::ZERO };
+    for &(joint, weight) in influences {
+        let joint = world_from_joints
+            .get(joint)
+            .ok_or_else(|| Cause::Broken(format!("a vertex hangs on joint {joint}, which its skin lacks")))?;
+        let share = f64::from(weight) / total;
+        sum.matrix3 += joint.matrix3 * share;
+        sum.translation += joint.translation * share;
+    }
+    Ok(if total > 0.0 { sum } else { DAffine3::IDENTITY })
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use serde_json::json;
+
+    use crate::scene::gltf::fixture::Fixture;
+
+    /// A triangle whose first two corners hang on joint 0 and whose last hangs half on joint 1, which stands 2 higher.
+    fn skinned() -> Fixture {
+        let mut fixture = Fixture::triangle();
+        let joints = fixture.accessor(5121, "VEC4", 3, &[0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0]);
+        fixture.primitive()["attributes"]["JOINTS_0"] = json!(joints);
+        fixture.floats("WEIGHTS_0", "VEC4", &[1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.5, 0.5, 0.0, 0.0]);
+        fixture.json["nodes"] =
+            json!([{"mesh": 0, "skin": 0, "translation": [50, 0, 0]}, {"children": [2]}, {"translation": [0, 0, 2]}]);
+        fixture.json["scenes"][0]["nodes"] = json!([0, 1]);
+        fixture.json["skins"] = json!([{"joints": [1, 2]}]);
+        fixture
+    }
+
+    #[test]
+    fn joints_carry_their_vertices_and_the_place_of_the_node_does_not_count() {
+        let scene = skinned().load();
+        let positions = [0, 1, 2].map(|v: usize| scene.vertices[v].position);
+        assert_eq!(positions, [Vec3::ZERO, Vec3::X, Vec3::new(0.0, 1.0, 1.0)]);
+    }
+
+    #[test]
+    fn inverse_bind_matrices_come_first() {
+        let mut fixture = skinned();
+        let shift = |z: f32| {
+            let mut matrix = glam::Mat4::IDENTITY.to_cols_array();
+            matrix[14] = z;
+            matrix.map(f32::to_le_bytes).concat()
+        };
+        let matrices = fixture.accessor(5126, "MAT4", 2, &[shift(0.0), shift(-2.0)].concat());
+        fixture.json["skins"][0]["inverseBindMatrices"] = json!(matrices);
+        assert_eq!(fixture.load().vertices[2].position, Vec3::Y);
+    }
+
+    #[test]
+    fn broken_skins_are_named() {
+        let cases = [
+            (json!([]), "refers to skin 0"),
+            (json!([{"joints": [1]}]), "joint 1, which its skin lacks"),
+            (json!([{"joints": [1, 7]}]), "node 7, which does not stand in the scene"),
+            (json!([{"joints": "all"}]), "skin 0"),
+            (json!([{"joints": [1, 2], "inverseBindMatrices": 0}]), "elements of 3 numbers where 16"),
+        ];
+        for (skins, expected) in cases {
+            let mut fixture = skinned();
+            fixture.json["skins"] = skins;
+            assert!(fixture.error().contains(expected), "{}", fixture.error());
+        }
+    }
+}

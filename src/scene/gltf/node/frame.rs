@@ -1,0 +1,11 @@
+//! The axes of a node without its scale, shear and mirroring: what lights and cameras follow.
+
+use glam::{DAffine3, DMat3, DVec3};
+
+/// Right-handed orthonormal axes that keep the node's +Z exactly and its +Y as nearly as possible.
+pub(crate) fn frame(world_from_node: DAffine3) -> DMat3 {
+    let z = world_from_node.matrix3.z_axis.try_normalize().unwrap_or(DVec3::Z);
+    let across = world_from_node.matrix3.y_axis.cross(z);
+    let x = across.try_normalize().unwrap_or_else(|| z.any_orthonormal_vector());
+    DMat3::from_cols(x, z.cross(x), z)
+}

@@ -1,0 +1,171 @@
+//! Luminous intensity by direction: the table of a photometric file, looked up by direction and integrated to a flux.
+
+use std::f32::consts::{PI, TAU};
+use std::sync::Arc;
+
+use glam::{Quat, Vec3};
+
+/// Luminous intensity by direction, candela.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Photometry {
+    /// Angles from the axis `[v]`, degrees, growing.
+    pub(super) vertical: Vec<f32>,
+    /// Angles round the axis `[h]`, degrees, growing.
+    pub(super) horizontal: Vec<f32>,
+    /// `[h][v]`.
+    pub(super) candela: Vec<f32>,
+    /// The largest of them.
+    pub(super) peak: f32,
+    /// The file, so that a bake can pass it on unchanged.
+    pub(super) file: Vec<u8>,
+}
+
+/// A luminaire's distribution as a light holds it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// The table.
+    pub photometry: Arc<Photometry>,
+    /// How the luminaire is turned; its axis is -Z.
+    pub world_from_light: Quat,
+}
+
+impl Profile {
+    /// Intensity towards a unit vector away from the light, as a share of the largest.
+    #[must_use]
+    pub fn share(&self, direction: Vec3) -> f32 {
+        let local = self.world_from_light.inverse() * direction;
+        self.photometry.intensity(local) / self.photometry.peak
+    }
+}
+
+impl Photometry {
+    /// Candela towards a unit vector in the luminaire's own space: vertical angles begin at -Z, horizontal ones at +X and
+    /// grow towards +Y (EXT_lights_ies). None beyond the last vertical angle.
+    #[must_use]
+    pub fn intensity(&self, direction: Vec3) -> f32 {
+        let vertical = (-direction.z).clamp(-1.0, 1.0).acos().to_degrees();
+        let round = direction.y.atan2(direction.x).to_degrees();
+        let Some((low, share)) = place(&self.vertical, vertical) else { return 0.0 };
+        let (plane, turn) = place(&self.horizontal, self.folded(round)).unwrap_or((0, 0.0));
+        let next = (plane + 1).min(self.horizontal.len() - 1);
+        let along = |plane: usize| {
+            let row = &self.candela[plane * self.vertical.len()..][..self.vertical.len()];
+            row[low] + share * (row[(low + 1).min(row.len() - 1)] - row[low])
+        };
+        along(plane) + turn * (along(next) - along(plane))
+    }
+
+    /// A horizontal angle, brought into the part of the circle that the file tells; the rest mirrors it.
+    fn folded(&self, degrees: f32) -> f32 {
+        let degrees = degrees.rem_euclid(360.0);
+        let half = if degrees > 180.0 { 360.0 - degrees } else { degrees };
+        let (first, last) = (self.horizontal[0], self.horizontal[self.horizontal.len() - 1]);
+        match (first, last) {
+            _ if first == last => first,
+            // The planes from 90 to 270 degrees tell of the side of -X.
+            (90.0, 270.0) if !(90.0..=270.0).contains(&degrees) => (180.0 - degrees).rem_euclid(360.0),
+            (0.0, 90.0) if half > 90.0 => 180.0 - half,
+            (0.0, 90.0 | 180.0) => half,
+            _ => degrees,
+        }
+    }
+
+    /// The largest intensity, candela.
+    #[must_use]
+    pub fn peak(&self) -> f32 {
+        self.peak
+    }
+
+    /// The file that it was read from.
+    #[must_use]
+    pub fn file(&self) -> &[u8] {
+        &self.file
+    }
+
+    /// Luminous flux, lumen: the integral over the sphere by the midpoint rule.
+    #[must_use]
+    pub fn flux(&self) -> f32 {
+        const STEPS: usize = 90;
+        let ring = |v: usize| {
+            let polar = (v as f32 + 0.5) * PI / STEPS as f32;
+            let towards = |h: usize| {
+                let (sin, cos) = ((h as f32 + 0.5) * TAU / STEPS as f32).sin_cos();
+                self.intensity(Vec3::new(polar.sin() * cos, polar.sin() * sin, -polar.cos()))
+            };
+            (0..STEPS).map(towards).sum::<f32>() * polar.sin()
+        };
+        (0..STEPS).map(ring).sum::<f32>() * (PI / STEPS as f32) * (TAU / STEPS as f32)
+    }
+}
+
+/// Between which of the growing `angles` one lies, and how far towards the next; none outside.
+fn place(angles: &[f32], angle: f32) -> Option<(usize, f32)> {
+    /// Rounding at the ends of the table, degrees.
+    const SLACK: f32 = 1e-3;
+    if angle < angles[0] - SLACK || angle > angles[angles.len() - 1] + SLACK {
+        return None;
+    }
+    let low = angles.partition_point(|&known| known <= angle).saturating_sub(1).min(angles.len().saturating_sub(2));
+    let next = (low + 1).min(angles.len() - 1);
+    let width = angles[next] - angles[low];
+    Some((low, if width > 0.0 { ((angle - angles[low]) / width).clamp(0.0, 1.0) } else { 0.0 }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::parse;
+    use super::*;
+
+    /// A file with these angles and candelas.
+    fn file(vertical: &str, horizontal: &str, candela: &str) -> Photometry {
+        let count = |list: &str| list.split_whitespace().count();
+        let counts = format!("{} {}", count(vertical), count(horizontal));
+        let text = format!(
+            "IES:LM-63-2019\nTILT=NONE\n1 -1 1.0 {counts} 1 2 0 0 0\n1 1 10\n{vertical}\n{horizontal}\n{candela}\n"
+        );
+        parse(text.as_bytes()).expect("LM-63")
+    }
+
+    fn towards(vertical: f32, horizontal: f32) -> Vec3 {
+        let ((sin, cos), (y, x)) = (vertical.to_radians().sin_cos(), horizontal.to_radians().sin_cos());
+        Vec3::new(sin * x, sin * y, -cos)
+    }
+
+    #[test]
+    fn a_diffuse_luminaire_sends_pi_times_its_peak() {
+        let angles: Vec<String> = (0..=90).map(|degree| degree.to_string()).collect();
+        let cosines: Vec<String> =
+            (0..=90).map(|degree| format!("{}", 100.0 * f64::from(degree).to_radians().cos())).collect();
+        let lambert = file(&angles.join(" "), "0", &cosines.join(" "));
+        assert!((lambert.flux() / (PI * 100.0) - 1.0).abs() < 1e-3, "{}", lambert.flux());
+        assert_eq!((lambert.peak(), lambert.intensity(towards(120.0, 0.0))), (100.0, 0.0));
+        assert!((lambert.intensity(towards(60.0, 77.0)) - 50.0).abs() < 0.01);
+    }
+
+    #[test]
+    fn what_is_told_of_a_part_of_the_circle_is_mirrored_to_the_rest() {
+        // Candela at 90 degrees from the axis are the horizontal angle.
+        let quarter = file("0 90", "0 90", "0 0 0 90");
+        let half = file("0 90", "0 90 180", "0 0 0 90 0 180");
+        let side = file("0 90", "90 180 270", "0 90 0 180 0 270");
+        let whole = file("0 90", "0 90 180 270 360", "0 0 0 90 0 180 0 270 0 360");
+        let round = [
+            (45.0, [45.0, 45.0, 135.0, 45.0]),
+            (135.0, [45.0, 135.0, 135.0, 135.0]),
+            (300.0, [60.0, 60.0, 240.0, 300.0]),
+        ];
+        for (at, expected) in round {
+            let found = [&quarter, &half, &side, &whole].map(|table| table.intensity(towards(90.0, at)));
+            assert!(found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.01), "{at}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn a_turned_light_takes_its_table_along() {
+        let photometry = Arc::new(file("0 90 180", "0", "10 5 0"));
+        let upwards = Quat::from_rotation_arc(Vec3::NEG_Z, Vec3::Y);
+        let profile = Profile { photometry, world_from_light: upwards };
+        assert!((profile.share(Vec3::Y) - 1.0).abs() < 1e-3 && profile.share(Vec3::NEG_Y) < 1e-3);
+        assert!((profile.share(Vec3::X) - 0.5).abs() < 1e-3);
+    }
+}
