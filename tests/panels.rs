@@ -14,7 +14,9 @@ use hemicube::scene::{Scene, builtin};
 use hemicube::viewer::camera::Eye;
 use hemicube::viewer::kept_side::KeptSide;
 use hemicube::viewer::memory::Memory;
-use hemicube::viewer::panels::{Facts, LightState, MeterFacts, Panels, Tab, theme};
+use hemicube::viewer::panels::{
+    BakeFacts, CameraFacts, Facts, LightState, Panels, PictureFacts, SceneFacts, Tab, theme,
+};
 use hemicube::viewer::screen::PanelShapes;
 use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
@@ -28,37 +30,29 @@ const SIDE: u32 = 312;
 
 fn facts(scene: &Scene) -> Facts<'_> {
     Facts {
-        scene: Some(scene),
-        variant: None,
-        light: LightState::Baked { elapsed: Duration::from_secs(3) },
-        num_elements: Some(41_234),
-        eye: Some(Eye::looking_along(Vec3::new(2.8, 1.65, 2.0), Vec3::NEG_Z)),
-        picture_size: [980, 690],
-        is_walking: true,
-        pace: 2.0,
-        is_captured: false,
-        frame_rate: 60.0,
-        frame_seconds: 0.016,
-        adapter: "test",
-        next_bake: Some((BakeSettings::preset(Quality::Medium), MeshSettings { element_size: 0.12, patch_size: 0.5 })),
-        curve: &[[0.1, 1.0], [0.5, 0.2], [1.2, 0.01], [1.6, 0.001]],
-        report: None,
-        advice: &[],
-        is_solved: true,
-        meter: MeterFacts::default(),
-        sight: None,
-        recording: None,
-        is_recording: false,
-        is_writing: false,
-        num_rays: None,
-        num_points: None,
-        difference: None,
-        fault: None,
-        laps: &[],
-        has_device_clock: false,
-        num_light_samples: 0,
-        sees: &|_| true,
-        bookmarks: vec![1, 3],
+        scene: SceneFacts { open: Some(scene), num_elements: Some(41_234), ..SceneFacts::default() },
+        bake: BakeFacts {
+            light: LightState::Baked { elapsed: Duration::from_secs(3) },
+            is_solved: true,
+            next: Some((BakeSettings::preset(Quality::Medium), MeshSettings { element_size: 0.12, patch_size: 0.5 })),
+            curve: &[[0.1, 1.0], [0.5, 0.2], [1.2, 0.01], [1.6, 0.001]],
+            ..BakeFacts::default()
+        },
+        camera: CameraFacts {
+            pose: Some(Eye::looking_along(Vec3::new(2.8, 1.65, 2.0), Vec3::NEG_Z)),
+            is_walking: true,
+            speed: 2.0,
+            bookmarks: vec![1, 3],
+            ..CameraFacts::default()
+        },
+        picture: PictureFacts {
+            size: [980, 690],
+            frame_rate: 60.0,
+            frame_seconds: 0.016,
+            adapter: "test",
+            ..PictureFacts::default()
+        },
+        ..Facts::default()
     }
 }
 
@@ -162,7 +156,8 @@ fn a_side_that_is_kept_looks_as_if_painted_anew() {
                 _ => {}
             }
             // The status bar changes every time, the side does not.
-            let facts = Facts { frame_rate: 30.0 + step as f32, ..facts(&scene) };
+            let mut facts = facts(&scene);
+            facts.picture.frame_rate = 30.0 + step as f32;
             sheets[which].frame(gpu, panels, &facts)
         });
         assert!(pictures[0] == pictures[1], "step {step}");
@@ -238,19 +233,22 @@ fn random_input_never_upsets_the_panels() {
     let ctx = egui::Context::default();
     theme::apply(&ctx);
     let mut dice = Dice(0);
-    let mut num_commands = 0;
+    let mut num_actions = 0;
     for _ in 0..num_frames {
         let size = [egui::vec2(1280.0, 720.0), egui::vec2(480.0, 320.0), egui::vec2(1.0, 1.0)]
             [dice.below(12).saturating_sub(9)];
         let events = (0..dice.below(4)).map(|_| event(&mut dice, size)).collect();
-        let known = if dice.below(20) == 0 { Facts { scene: None, eye: None, ..facts(&scene) } } else { facts(&scene) };
+        let mut facts = facts(&scene);
+        if dice.below(20) == 0 {
+            (facts.scene.open, facts.camera.pose) = (None, None);
+        }
         if dice.below(30) == 0 {
             panels.memory.tab = [Tab::Picture, Tab::Solution, Tab::Meter, Tab::Place][dice.below(4)];
         }
         let mut asked = Vec::new();
-        let output = ctx.run_ui(input(events, size), |ui| asked = panels.ui(ui, &known).0);
+        let output = ctx.run_ui(input(events, size), |ui| asked = panels.ui(ui, &facts).0);
         output.drop_without_applying_deltas();
-        num_commands += asked.len();
+        num_actions += asked.len();
         let settings = panels.light.render_settings(true);
         assert!(settings.lux_scale.high > settings.lux_scale.low && settings.lux_scale.low >= 0.0, "{settings:?}");
         assert!(
@@ -258,5 +256,5 @@ fn random_input_never_upsets_the_panels() {
             "{settings:?}"
         );
     }
-    assert!(num_commands > 0, "nothing was ever hit");
+    assert!(num_actions > 0, "nothing was ever hit");
 }

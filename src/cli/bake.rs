@@ -5,9 +5,12 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, Result, bail};
 use clap::Args;
 
-use super::bake_options::{BakeOptions, VariantOption, bake_device, bake_watched, load, positive};
-use super::lightmap::LightmapOptions;
-use super::render::exposure;
+use super::bake_options::BakeOptions;
+use super::lightmap_export::{LightmapOptions, write_lightmap};
+use super::lit_scene::{bake_device, bake_watched};
+use super::scene_input::{VariantOption, load};
+use super::terminal::Terminal;
+use super::value::{exposure, positive};
 use crate::bake::{BakeSettings, Report};
 use crate::baked;
 use crate::base::output::write_whole;
@@ -52,11 +55,11 @@ pub struct BakeArgs {
     pub report: Option<PathBuf>,
 }
 
-/// Bakes and writes.
+/// Bakes the scene and writes it.
 ///
 /// # Errors
-/// The scene cannot be loaded or baked, or an output cannot be written.
-pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
+/// Returns an error if the scene cannot be loaded or baked, or a file cannot be written.
+pub fn run(args: &BakeArgs, terminal: Terminal) -> Result<()> {
     if args.output.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("glb")) {
         bail!("{}: a bake is written as .glb", args.output.display());
     }
@@ -65,34 +68,43 @@ pub fn run(args: &BakeArgs, is_quiet: bool) -> Result<()> {
     let settings = BakeSettings { threshold: args.threshold.unwrap_or(preset.threshold), ..preset };
     let gpu = bake_device(&settings)?;
     let rows = args.row_cache.as_deref().map(|path| RowCache::open(path, ROW_CACHE_BYTES)).transpose()?;
-    let bake = bake_watched(gpu.as_ref(), &scene, &settings, rows.as_ref(), is_quiet)?;
+    let bake = bake_watched(gpu.as_ref(), &scene, &settings, rows.as_ref(), terminal)?;
     let exposure_ev = match args.exposure {
         Exposure::Ev(ev) => ev,
         Exposure::Auto => baked::exposure::suited(&bake.baked),
     };
     baked::gltf::write(&args.output, &bake.baked, exposure_ev)?;
-    let told = args.lightmap.write(&bake, &scene, &settings, &args.output, exposure_ev)?;
+    let map = args.lightmap.lightmap_of(&bake, &scene, &settings);
+    if let Some(map) = map.with_context(|| format!("{}: no lightmap", args.output.display()))? {
+        terminal.print(write_lightmap(&map, &args.output, exposure_ev)?);
+    }
     if let Some(path) = &args.report {
         write_report(path, &bake.report)?;
     }
-    if !is_quiet {
-        told.iter().for_each(|line| eprintln!("{line}"));
-        let Report { elements, patches, hemicubes, seconds, unshot_share, .. } = &bake.report;
-        eprintln!(
-            "{}: {elements} elements, {patches} patches, {hemicubes} hemicubes, {:.2} % unshot, {:.1} s; other programs \
-             show it at --exposure {exposure_ev:.2}",
-            args.output.display(),
-            100.0 * unshot_share,
-            seconds.total
-        );
-    }
-    if let (Some(rows), false) = (&rows, is_quiet) {
-        eprintln!("{} of the hemicubes were in the row cache, which has {} now", rows.num_reused(), rows.len());
+    print_summary(&bake.report, &args.output, exposure_ev, terminal);
+    if let Some(rows) = &rows {
+        terminal.print(format_args!(
+            "{} of the hemicubes were in the row cache, which has {} now",
+            rows.num_reused(),
+            rows.len()
+        ));
     }
     if bake.report.cancelled {
         eprintln!("stopped early: what was solved until then is in the file");
     }
     Ok(())
+}
+
+/// Prints what the bake made and how long it took.
+fn print_summary(report: &Report, output: &Path, exposure_ev: f32, terminal: Terminal) {
+    let Report { elements, patches, hemicubes, seconds, unshot_share, .. } = report;
+    terminal.print(format_args!(
+        "{}: {elements} elements, {patches} patches, {hemicubes} hemicubes, {:.2} % unshot, {:.1} s; other programs show it at \
+         --exposure {exposure_ev:.2}",
+        output.display(),
+        100.0 * unshot_share,
+        seconds.total
+    ));
 }
 
 /// Writes the report as JSON.

@@ -1,18 +1,9 @@
-//! Options of every subcommand that may have to bake, and the way from a file to a lit scene.
+//! Options of every subcommand that may bake.
 
-use std::path::Path;
-
-use anyhow::{Context, Result};
 use clap::{Args, ValueEnum};
 
-use crate::bake::{Bake, BakeSettings, Method, Quality, Solver, bake_with_rows};
-use crate::baked::{self, BakedScene};
-use crate::form_factor::row_cache::RowCache;
-use crate::gpu::Gpu;
-use crate::scene::gltf::LoadOptions;
-use crate::scene::{Scene, builtin, gltf};
-
-use super::terminal::TerminalWatch;
+use super::value::{hemicube_size, positive, share};
+use crate::bake::{BakeSettings, Method, Quality, Solver};
 
 /// How to bake.
 #[derive(Args, Clone, Debug)]
@@ -43,14 +34,6 @@ pub struct BakeOptions {
     /// progressive refinement ends after N shots a patch on average [default: 64].
     #[arg(long, value_name = "N")]
     pub passes: Option<u32>,
-}
-
-/// Which of a file's material variants is meant.
-#[derive(Args, Clone, Debug)]
-pub struct VariantOption {
-    /// Material variant of the file, by name (KHR_materials_variants; `hemicube info` lists them) [default: none].
-    #[arg(long, value_name = "NAME")]
-    pub variant: Option<String>,
 }
 
 /// Presets as written on the command line.
@@ -109,90 +92,5 @@ impl BakeOptions {
             passes: self.passes.map(|passes| passes as usize),
             ..preset
         }
-    }
-}
-
-/// Parses a number above zero.
-pub fn positive(text: &str) -> Result<f32, String> {
-    match text.parse() {
-        Ok(value) if value > 0.0 && f32::is_finite(value) => Ok(value),
-        _ => Err("must be a positive number".to_owned()),
-    }
-}
-
-/// Parses a number from zero to one.
-pub fn share(text: &str) -> Result<f32, String> {
-    match text.parse() {
-        Ok(value) if (0.0..=1.0).contains(&value) => Ok(value),
-        _ => Err("must be a number from 0 to 1".to_owned()),
-    }
-}
-
-/// Parses the width of a hemicube.
-pub fn hemicube_size(text: &str) -> Result<u32, String> {
-    match text.parse() {
-        Ok(size @ (16 | 32 | 64 | 128 | 256 | 512)) => Ok(size),
-        _ => Err("must be 16, 32, 64, 128, 256 or 512".to_owned()),
-    }
-}
-
-/// Loads a scene: a file, or a built-in one, `builtin:NAME`.
-///
-/// # Errors
-/// The file cannot be loaded or has no such variant, or there is no such built-in scene.
-pub fn load(path: &Path, wanted: &VariantOption) -> Result<Scene> {
-    match path.to_str().and_then(|text| text.strip_prefix(builtin::PREFIX)) {
-        Some(name) => builtin::by_name(name)
-            .with_context(|| format!("there is no built-in scene {name}; there are {}", builtin::NAMES.join(", "))),
-        None => Ok(gltf::load_with(path, &LoadOptions { variant: wanted.variant.clone() })?),
-    }
-}
-
-/// The device that a bake shall draw hemicubes with; none where there is none and the bake can do without.
-///
-/// # Errors
-/// Hemicubes were asked for and no driver answers.
-pub fn bake_device(settings: &BakeSettings) -> Result<Option<Gpu>> {
-    if settings.method == Some(Method::Hemisphere) {
-        return Ok(None);
-    }
-    match Gpu::headless() {
-        Ok(gpu) => Ok(Some(gpu)),
-        Err(error) if settings.method.is_none() => {
-            log::warn!("{error}; form factors come from rays instead");
-            Ok(None)
-        }
-        Err(error) => Err(error.into()),
-    }
-}
-
-/// Bakes with progress on the terminal; Ctrl-C ends it after the current batch and keeps what is solved.
-///
-/// # Errors
-/// The scene cannot be baked.
-pub fn bake_watched(
-    gpu: Option<&Gpu>,
-    scene: &Scene,
-    settings: &BakeSettings,
-    rows: Option<&RowCache>,
-    is_quiet: bool,
-) -> Result<Bake> {
-    let watch = TerminalWatch::interruptible(is_quiet)?;
-    let finished = bake_with_rows(gpu, scene, settings, rows, &watch)?;
-    watch.finish();
-    for note in &scene.notes {
-        log::info!("{note}");
-    }
-    Ok(finished)
-}
-
-/// A loaded scene with its light: stored in the file, or baked now.
-///
-/// # Errors
-/// The scene cannot be baked.
-pub fn lit_scene(gpu: Option<&Gpu>, scene: Scene, settings: &BakeSettings, is_quiet: bool) -> Result<BakedScene> {
-    match baked::gltf::from_scene(scene) {
-        Ok(baked) => Ok(baked),
-        Err(scene) => Ok(bake_watched(gpu, &scene, settings, None, is_quiet)?.baked),
     }
 }

@@ -6,7 +6,7 @@ use anyhow::{Context, Result, anyhow};
 use clap::{Args, ValueEnum};
 use glam::DVec3;
 
-use super::bake_options::hemicube_size;
+use super::value::hemicube_size;
 use crate::base::output::write_whole;
 use crate::form_factor::pair::{Estimate, PolygonPair};
 use crate::form_factor::polygon::Polygon;

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 
-use super::bake_options::{VariantOption, load};
+use super::scene_input::{VariantOption, load};
 use crate::bake::{BakeSettings, Forecast, Quality};
 use crate::base::colour::luminance;
 use crate::scene::{Camera, Light, LightKind, Projection, Scene, doctor};

@@ -1,21 +1,22 @@
 //! Floor 7: the command line. One file a subcommand; errors are printed once, by `main`.
 
-pub mod bake;
-pub mod bake_options;
-pub mod form_factors;
-pub mod info;
-mod judge;
-pub mod lightmap;
-pub mod measure;
-mod patch_view;
-pub mod ray_options;
-pub mod render;
-pub mod shadow_options;
+mod bake;
+mod bake_options;
+mod form_factors;
+mod info;
+mod lightmap_export;
+mod lit_scene;
+mod measure;
+mod render;
+mod scene_input;
 mod terminal;
-pub mod view;
+mod value;
+mod view;
 
 use anyhow::Result;
 use clap::{Args, Parser, Subcommand};
+
+use terminal::Terminal;
 
 /// Radiosity and shadows in real units: bake true, view-independent light for glTF scenes and walk through it.
 #[derive(Debug, Parser)]
@@ -59,13 +60,12 @@ pub enum Command {
 }
 
 impl Verbosity {
-    /// Only errors were asked for.
-    #[must_use]
-    pub fn is_quiet(&self) -> bool {
-        self.quiet
+    /// The terminal that subcommands print on.
+    fn terminal(&self) -> Terminal {
+        Terminal::new(self.quiet)
     }
 
-    /// The log level that was asked for.
+    /// Level of the messages that are logged on stderr.
     #[must_use]
     pub fn level(&self) -> log::LevelFilter {
         match (self.quiet, self.verbose) {
@@ -77,14 +77,16 @@ impl Verbosity {
     }
 }
 
-/// Does what the command line says.
+/// Runs the subcommand.
 ///
-/// Errors: the one message that the user shall read.
+/// # Errors
+/// Returns the one message that `main` prints.
 pub fn run(cli: &Cli) -> Result<()> {
+    let terminal = cli.verbosity.terminal();
     match &cli.command {
-        Some(Command::Bake(args)) => bake::run(args, cli.verbosity.is_quiet()),
-        Some(Command::Render(args)) => render::run(args, cli.verbosity.is_quiet()),
-        Some(Command::Measure(args)) => measure::run(args, cli.verbosity.is_quiet()),
+        Some(Command::Bake(args)) => bake::run(args, terminal),
+        Some(Command::Render(args)) => render::run(args, terminal),
+        Some(Command::Measure(args)) => measure::run(args, terminal),
         Some(Command::FormFactors(args)) => form_factors::run(args),
         Some(Command::Info(args)) => info::run(args),
         None => view::run(&cli.view),

@@ -1,5 +1,6 @@
-//! Progress of long work on the terminal.
+//! Messages and progress on the terminal.
 
+use std::fmt::Display;
 use std::io::IsTerminal;
 use std::sync::{Arc, Mutex, OnceLock};
 
@@ -9,7 +10,13 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::bake::Watch;
 use crate::base::progress::{Cancel, Progress, Stage};
 
-/// Draws a bar on stderr and passes on the wish to stop.
+/// Where a subcommand prints what it does: stderr, or nowhere with `--quiet`.
+#[derive(Clone, Copy, Debug)]
+pub struct Terminal {
+    is_quiet: bool,
+}
+
+/// A progress bar on stderr, and the flag that Ctrl-C sets.
 pub struct TerminalWatch {
     cancel: Arc<Cancel>,
     bar: ProgressBar,
@@ -19,10 +26,39 @@ pub struct TerminalWatch {
 /// Steps of the bar.
 const STEPS: u64 = 1000;
 
-impl TerminalWatch {
-    /// A watch that ends the work when `cancel` is set and draws only where `is_visible`.
+impl Terminal {
+    /// A terminal that prints nothing if `is_quiet`.
     #[must_use]
-    pub fn new(cancel: Arc<Cancel>, is_visible: bool) -> Self {
+    pub fn new(is_quiet: bool) -> Self {
+        Self { is_quiet }
+    }
+
+    /// Prints a line on stderr.
+    pub fn print(self, line: impl Display) {
+        if !self.is_quiet {
+            eprintln!("{line}");
+        }
+    }
+
+    /// Watches work that Ctrl-C ends. It draws a progress bar if stderr is a terminal; all watches of the process share one
+    /// handler of Ctrl-C.
+    ///
+    /// # Errors
+    /// Returns an error if the handler cannot be installed.
+    pub fn watch(self) -> Result<TerminalWatch> {
+        static CANCEL: OnceLock<Arc<Cancel>> = OnceLock::new();
+        let is_first = CANCEL.get().is_none();
+        let cancel = CANCEL.get_or_init(Arc::default);
+        if is_first {
+            ctrlc::set_handler(|| cancel.cancel()).context("Ctrl-C cannot be caught")?;
+        }
+        let is_visible = !self.is_quiet && std::io::stderr().is_terminal();
+        Ok(TerminalWatch::new(Arc::clone(cancel), is_visible))
+    }
+}
+
+impl TerminalWatch {
+    fn new(cancel: Arc<Cancel>, is_visible: bool) -> Self {
         let bar = if is_visible { ProgressBar::new(STEPS) } else { ProgressBar::hidden() };
         let style =
             ProgressStyle::with_template("{msg:>12} {wide_bar:.cyan/dim} {percent:>3} % {elapsed:>4}, {eta} left");
@@ -30,22 +66,7 @@ impl TerminalWatch {
         Self { cancel, bar, stage: Mutex::new(None) }
     }
 
-    /// A watch that ends the work at Ctrl-C, which is heard by all watches of the process, and draws on a terminal unless
-    /// `is_quiet`.
-    ///
-    /// # Errors
-    /// Ctrl-C cannot be caught.
-    pub fn interruptible(is_quiet: bool) -> Result<Self> {
-        static CANCEL: OnceLock<Arc<Cancel>> = OnceLock::new();
-        let is_first = CANCEL.get().is_none();
-        let cancel = CANCEL.get_or_init(Arc::default);
-        if is_first {
-            ctrlc::set_handler(|| cancel.cancel()).context("Ctrl-C cannot be caught")?;
-        }
-        Ok(Self::new(Arc::clone(cancel), !is_quiet && std::io::stderr().is_terminal()))
-    }
-
-    /// Takes the bar away.
+    /// Removes the bar.
     pub fn finish(&self) {
         self.bar.finish_and_clear();
     }

@@ -5,7 +5,8 @@ use std::path::PathBuf;
 use anyhow::Result;
 use clap::Args;
 
-use super::bake_options::{BakeOptions, VariantOption};
+use super::bake_options::BakeOptions;
+use super::scene_input::VariantOption;
 use crate::viewer::{self, ViewerOptions};
 
 /// Options of the viewer.

@@ -5,7 +5,9 @@ use std::time::{Duration, Instant};
 use winit::event_loop::ControlFlow;
 
 use super::errand::Kind;
-use super::panels::{Command, Facts, MeterFacts, Tab};
+use super::panels::{
+    Action, BakeFacts, CameraFacts, Facts, MeasurementFacts, PictureFacts, SceneFacts, ShadowFacts, Tab,
+};
 use super::screen::{PanelShapes, Shown};
 use super::walkthrough::Walkthrough;
 use super::worker::Worker;
@@ -25,21 +27,21 @@ impl Walkthrough {
         // Follow the keys.
         let is_moving = self.advance(seconds);
         // Lay out the panels; what they ask for changes the next frame.
-        let (panels, commands) = self.lay_out();
+        let (panels, actions) = self.lay_out();
         // The picture and the panels on top.
         let shown = self.show(panels);
 
         drop(held);
         self.errands.go_on();
         self.pacer.end(is_baking);
-        if is_moving || shown == Shown::Retry || !commands.is_empty() {
+        if is_moving || shown == Shown::Retry || !actions.is_empty() {
             self.pacer.want();
         }
         if let Some(worker) = self.session.worker() {
             worker.ask_for_light(Duration::from_secs_f32(LIGHT_INTERVAL * self.pacer.frame_seconds()));
         }
-        for command in commands {
-            self.perform(command);
+        for action in actions {
+            self.perform(action);
         }
         self.remember_changes();
     }
@@ -55,7 +57,7 @@ impl Walkthrough {
         intent.is_moving() || place.traveller.is_moving()
     }
 
-    fn lay_out(&mut self) -> (PanelShapes, Vec<Command>) {
+    fn lay_out(&mut self) -> (PanelShapes, Vec<Action>) {
         let place = self.session.place.as_ref();
         let next_settings = self.next_settings();
         // The area of a large scene is not summed for a page that nobody sees.
@@ -63,51 +65,62 @@ impl Walkthrough {
         let curve = self.session.curve();
         let solved = place.and_then(|place| place.solved.as_deref());
         let sees = |point| place.is_some_and(|place| place.sees(point));
+        let laps = self.screen.canvas.laps();
         let facts = Facts {
-            scene: place.map(|place| &*place.scene),
-            variant: self.session.variant(),
-            light: self.session.light_state(),
-            num_elements: self.session.num_elements(),
-            eye: place.map(|place| place.traveller.eye),
-            picture_size: self.picture_size,
-            is_walking: place.is_some_and(|place| place.traveller.is_walking()),
-            pace: place.map_or(0.0, |place| place.traveller.pace()),
-            is_captured: self.look.is_captured(),
-            frame_rate: self.pacer.frame_rate(),
-            frame_seconds: self.pacer.frame_seconds(),
-            adapter: &self.adapter,
-            next_bake: baked_place.map(|place| (next_settings, place.mesh_sizes(&next_settings))),
-            curve: &curve,
-            report: solved.and_then(|solved| solved.report.as_ref()),
-            advice: place.map_or(&[], |place| &place.advice),
-            is_solved: solved.is_some(),
-            meter: MeterFacts {
+            scene: SceneFacts {
+                open: place.map(|place| &*place.scene),
+                variant: self.session.variant(),
+                num_elements: self.session.num_elements(),
+                advice: place.map_or(&[], |place| &place.advice),
+            },
+            bake: BakeFacts {
+                light: self.session.light_state(),
+                is_solved: solved.is_some(),
+                next: baked_place.map(|place| (next_settings, place.mesh_sizes(&next_settings))),
+                curve: &curve,
+                report: solved.and_then(|solved| solved.report.as_ref()),
+                recording: self.inquiry.recording.as_deref(),
+                is_recording: self.errands.is_out(Kind::Record),
+            },
+            camera: CameraFacts {
+                pose: place.map(|place| place.traveller.eye),
+                is_walking: place.is_some_and(|place| place.traveller.is_walking()),
+                speed: place.map_or(0.0, |place| place.traveller.pace()),
+                is_captured: self.look.is_captured(),
+                bookmarks: self.panels.memory.bookmarks_of(&self.session.name()),
+                is_visible: &sees,
+            },
+            picture: PictureFacts {
+                size: self.picture_size,
+                num_rays: self.inquiry.num_rays,
+                is_writing: self.errands.is_out(Kind::Write),
+                frame_rate: self.pacer.frame_rate(),
+                frame_seconds: self.pacer.frame_seconds(),
+                adapter: &self.adapter,
+            },
+            shadows: ShadowFacts {
+                num_light_samples: self.inquiry.num_light_samples,
+                num_points: self.num_points(),
+                difference: self.screen.canvas.difference(),
+                fault: self.inquiry.fault.as_deref(),
+                laps: &laps.passes,
+                has_device_clock: laps.is_of_device,
+            },
+            measurement: MeasurementFacts {
                 last: self.inquiry.last.as_ref(),
                 pins: &self.inquiry.pins,
                 grid: self.inquiry.grid.as_ref(),
+                patch_view: self.inquiry.sight.as_ref(),
                 is_busy: self.errands.is_out(Kind::Measure),
             },
-            sight: self.inquiry.sight.as_ref(),
-            recording: self.inquiry.recording.as_deref(),
-            is_recording: self.errands.is_out(Kind::Record),
-            is_writing: self.errands.is_out(Kind::Write),
-            num_rays: self.inquiry.num_rays,
-            num_points: self.num_points(),
-            difference: self.screen.canvas.difference(),
-            fault: self.inquiry.fault.as_deref(),
-            laps: &self.screen.canvas.laps().passes,
-            has_device_clock: self.screen.canvas.laps().is_of_device,
-            num_light_samples: self.inquiry.num_light_samples,
-            bookmarks: self.panels.memory.bookmarks_of(&self.session.name()),
-            sees: &sees,
         };
-        let (mut commands, mut free) = (Vec::new(), egui::Rect::ZERO);
-        let mut shapes = self.gui.run(&self.window, |ui| (commands, free) = self.panels.ui(ui, &facts));
+        let (mut actions, mut free) = (Vec::new(), egui::Rect::ZERO);
+        let mut shapes = self.gui.run(&self.window, |ui| (actions, free) = self.panels.ui(ui, &facts));
         shapes.divider = self.panels.light.divider;
         let window = self.screen.size().map(|side| side as f32 / shapes.pixels_per_point);
         shapes.side = egui::Rect::from_min_max(egui::pos2(free.right(), 0.0), egui::pos2(window[0], free.bottom()));
         self.picture_size = pixels(free, shapes.pixels_per_point, self.screen.size());
-        (shapes, commands)
+        (shapes, actions)
     }
 
     fn show(&mut self, panels: PanelShapes) -> Shown {

@@ -7,7 +7,7 @@ use super::collider::Pick;
 use super::errand::{Finding, Kind};
 use super::meter::{self, Grid, GridPlan, Reading};
 use super::output::{self, Written, next_name};
-use super::panels::{Command, Notice, Tab, Tool, Trouble};
+use super::panels::{Action, Notice, Tab, Tool, Trouble};
 use super::patch_sight::PatchSight;
 use super::replay::Recording;
 use super::still;
@@ -97,7 +97,7 @@ impl Walkthrough {
                     }
                 })
             }
-            Tool::Sight => {
+            Tool::PatchView => {
                 let render_settings = self.panels.light.render_settings(true);
                 self.errands.send(Kind::Sight, job, move |bearer| {
                     match PatchSight::from(&gpu, &solved, point, &render_settings, bearer) {
@@ -148,20 +148,20 @@ impl Walkthrough {
     }
 
     /// Does what the panels ask of readings, recordings and files.
-    pub(super) fn inquire(&mut self, command: Command) {
-        match command {
-            Command::Take(tool) => self.take(tool),
-            Command::Pin => self.inquiry.pins.extend(self.inquiry.last.take()),
-            Command::ClearReadings => {
+    pub(super) fn inquire(&mut self, action: Action) {
+        match action {
+            Action::Take(tool) => self.take(tool),
+            Action::Pin => self.inquiry.pins.extend(self.inquiry.last.take()),
+            Action::ClearReadings => {
                 (self.inquiry.last, self.inquiry.grid) = (None, None);
                 self.inquiry.pins.clear();
             }
-            Command::ForgetSight => self.inquiry.sight = None,
-            Command::WriteReadings => self.write_readings(),
-            Command::ToggleRecording => self.toggle_recording(),
-            Command::SaveBake => self.save_bake(),
-            Command::WritePicture => self.write_picture(),
-            Command::CancelPicture => self.errands.end(Kind::Write),
+            Action::ClosePatchView => self.inquiry.sight = None,
+            Action::WriteReadings => self.write_readings(),
+            Action::ToggleRecording => self.toggle_recording(),
+            Action::SaveBake => self.save_bake(),
+            Action::WritePicture => self.write_picture(),
+            Action::CancelPicture => self.errands.end(Kind::Write),
             _ => {}
         }
     }
@@ -171,7 +171,7 @@ impl Walkthrough {
         self.panels.tool = tool;
         let (tab, section) = match tool {
             Tool::Meter | Tool::Grid => (Tab::Meter, "Lux meter"),
-            Tool::Sight => (Tab::Meter, "View from here"),
+            Tool::PatchView => (Tab::Meter, "View from here"),
             Tool::Choose => (Tab::Place, "Scene"),
             Tool::Receiver => {
                 // One sees what is chosen.

@@ -1,7 +1,7 @@
 //! Floor 6: the window in which one walks through a scene while its light is solved.
 //!
 //! [`app`] is winit's side, [`walkthrough`] the open window: events become movement ([`input`], [`travel`], [`walk`]) and
-//! [`panels::Command`]s ([`shortcuts`], `commands`); `frame` is the recipe of a frame. Loading and baking run in a
+//! [`panels::Action`]s ([`shortcuts`], `actions`); `frame` is the recipe of a frame. Loading and baking run in a
 //! thread ([`worker`]); [`session`] holds what they bring, [`place`] the open scene, [`solved`] its light. What a click
 //! asks ([`inquiry`]: a reading of the [`meter`], a [`patch_sight`], a [`replay`], a [`still`]) is an [`errand`].
 //! Deliberately absent: any light of its own; everything that is drawn comes from [`crate::render`].
@@ -38,8 +38,8 @@ pub mod walkthrough;
 pub mod worker;
 
 mod accumulation;
+mod actions;
 mod background;
-mod commands;
 mod default_sky;
 mod difference;
 mod file_watch;

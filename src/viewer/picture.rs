@@ -67,7 +67,7 @@ impl Walkthrough {
         let wanted = Wanted {
             wire: panels.memory.wire,
             chosen: panels.chosen_instances(),
-            found: panels.found.map(|found| found.advice),
+            found: panels.shown_advice.map(|shown| shown.advice),
             sight: inquiry.sight.as_ref().filter(|_| panels.shows_heat && panels.memory.tab == Tab::Meter),
             shooter: moment.and_then(|moment| moment.shooter),
         };

@@ -1,4 +1,4 @@
-//! The open window and what its events mean; what they ask for is done in `commands`, and a frame is drawn by
+//! The open window and what its events mean; what they ask for is done in `actions`, and a frame is drawn by
 //! `frame`.
 
 use std::sync::Arc;
@@ -20,7 +20,7 @@ use super::pacing::Pacer;
 use super::panels::{Notice, Panels, Tool, Trouble};
 use super::screen::Screen;
 use super::session::{Outcome, Session};
-use super::shortcuts::command_of;
+use super::shortcuts::action_of;
 use super::worker::{Event, News, Source};
 use crate::bake::BakeSettings;
 
@@ -135,7 +135,7 @@ impl Walkthrough {
         self.window.set_title(&format!("{} - Hemicube", place.scene.name));
         self.panels.light.reset_groups(&place.scene);
         self.panels.selection = Default::default();
-        self.panels.found = None;
+        self.panels.shown_advice = None;
         self.panels.trouble = None;
         if let Some(advice) = place.advice.first().filter(|advice| advice.text == super::default_sky::NOTE) {
             self.panels.notice = Some(Notice::new(advice.text.as_str()));
@@ -258,8 +258,8 @@ impl Walkthrough {
         }
         if is_down && event.logical_key == Key::Named(NamedKey::Escape) {
             self.escape();
-        } else if is_down && let Some(command) = command_of(event, self.keys.is_control_down()) {
-            self.perform(command);
+        } else if is_down && let Some(action) = action_of(event, self.keys.is_control_down()) {
+            self.perform(action);
         }
         self.pacer.want();
     }
@@ -273,7 +273,7 @@ impl Walkthrough {
             || panels.trouble.take().is_some()
             || std::mem::take(&mut panels.tool) != Tool::Look
             || panels.selection.chosen.take().is_some()
-            || panels.found.take().is_some();
+            || panels.shown_advice.take().is_some();
     }
 
     fn on_wheel(&mut self, delta: MouseScrollDelta) {

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use egui::Vec2;
+use egui::{Rect, Vec2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::Vec3;
@@ -10,15 +10,19 @@ use glam::Vec3;
 mod scene;
 mod shadows;
 
+use super::layout::WIDTH;
 use super::*;
 use crate::bake::BakeSettings;
+use crate::bake::Quality;
 use crate::base::progress::Stage;
 use crate::patch::MeshSettings;
+use crate::render::Shading;
 use crate::scene::doctor::Place;
 use crate::scene::{Scene, builtin};
 use crate::viewer::advice::Advice;
 use crate::viewer::camera::Eye;
 use crate::viewer::marks::Wire;
+use crate::viewer::memory::Memory;
 
 const WINDOW: Vec2 = egui::vec2(1280.0, 2400.0);
 
@@ -26,44 +30,33 @@ const WINDOW: Vec2 = egui::vec2(1280.0, 2400.0);
 struct Desk {
     panels: Panels,
     facts: Facts<'static>,
-    asked: Vec<Command>,
+    asked: Vec<Action>,
     free: Rect,
 }
 
 fn facts(scene: Option<&'static Scene>, light: LightState) -> Facts<'static> {
     let sizes = MeshSettings { element_size: 0.1, patch_size: 0.5 };
     Facts {
-        scene,
-        variant: None,
-        light,
-        num_elements: None,
-        eye: scene.map(|_| Eye::looking_along(Vec3::ZERO, Vec3::NEG_Z)),
-        picture_size: [980, 690],
-        is_walking: true,
-        pace: 2.0,
-        is_captured: false,
-        frame_rate: 60.0,
-        frame_seconds: 0.016,
-        adapter: "test",
-        next_bake: scene.map(|_| (BakeSettings::preset(Quality::Draft), sizes)),
-        curve: &[],
-        report: None,
-        advice: &[],
-        is_solved: false,
-        meter: MeterFacts::default(),
-        sight: None,
-        recording: None,
-        is_recording: false,
-        is_writing: false,
-        num_rays: None,
-        num_points: None,
-        difference: None,
-        fault: None,
-        laps: &[],
-        has_device_clock: false,
-        num_light_samples: 0,
-        bookmarks: Vec::new(),
-        sees: &|_| true,
+        scene: SceneFacts { open: scene, ..SceneFacts::default() },
+        bake: BakeFacts {
+            light,
+            next: scene.map(|_| (BakeSettings::preset(Quality::Draft), sizes)),
+            ..BakeFacts::default()
+        },
+        camera: CameraFacts {
+            pose: scene.map(|_| Eye::looking_along(Vec3::ZERO, Vec3::NEG_Z)),
+            is_walking: true,
+            speed: 2.0,
+            ..CameraFacts::default()
+        },
+        picture: PictureFacts {
+            size: [980, 690],
+            frame_rate: 60.0,
+            frame_seconds: 0.016,
+            adapter: "test",
+            ..PictureFacts::default()
+        },
+        ..Facts::default()
     }
 }
 
@@ -99,7 +92,7 @@ const SECTIONS: [&str; 13] = [
 
 fn desk_with(facts: Facts<'static>, memory: Memory, size: Vec2) -> Harness<'static, Desk> {
     let mut panels = Panels::new(Quality::Draft, memory);
-    if let Some(scene) = facts.scene {
+    if let Some(scene) = facts.scene.open {
         panels.light.reset_groups(scene);
     }
     let desk = Desk { panels, facts, asked: Vec::new(), free: Rect::ZERO };
@@ -117,7 +110,7 @@ fn desk_with(facts: Facts<'static>, memory: Memory, size: Vec2) -> Harness<'stat
 }
 
 /// Clicks what has this name; what was asked for.
-fn click(harness: &mut Harness<'static, Desk>, name: &str) -> Vec<Command> {
+fn click(harness: &mut Harness<'static, Desk>, name: &str) -> Vec<Action> {
     harness.get_by_label(name).click();
     harness.run_steps(3);
     std::mem::take(&mut harness.state_mut().asked)
@@ -125,31 +118,33 @@ fn click(harness: &mut Harness<'static, Desk>, name: &str) -> Vec<Command> {
 
 fn baked() -> Facts<'static> {
     let light = LightState::Baked { elapsed: Duration::from_secs(3) };
-    Facts { is_solved: true, curve: &[[0.1, 1.0], [0.5, 0.1], [1.2, 0.01]], ..facts(Some(cornell()), light) }
+    let facts = facts(Some(cornell()), light);
+    let bake = BakeFacts { is_solved: true, curve: &[[0.1, 1.0], [0.5, 0.1], [1.2, 0.01]], ..facts.bake };
+    Facts { bake, ..facts }
 }
 
 #[test]
 fn buttons_ask_for_what_they_say() {
     let mut desk = desk(baked());
     let first = cornell().cameras[0].name.as_str();
-    for (tab, name, command) in [
-        ("Picture", "Open ...", Command::ChooseFile),
-        ("Picture", "Help", Command::ToggleHelp),
-        ("Picture", "Measure", Command::Take(Tool::Meter)),
-        ("Place", "Select", Command::Take(Tool::Choose)),
-        ("Meter", "View from", Command::Take(Tool::Sight)),
-        ("Meter", "Measure a surface", Command::Take(Tool::Grid)),
-        ("Picture", "Frame all", Command::FrameAll),
-        ("Picture", "Fly", Command::ToggleWalking),
-        ("Picture", "auto", Command::ToggleAutoExposure),
-        ("Solution", "Bake", Command::Bake),
-        ("Solution", "Save the bake", Command::SaveBake),
-        ("Solution", "Record the bake", Command::ToggleRecording),
-        ("Place", first, Command::Jump(0)),
-        ("Place", "Add", Command::Bookmark(1)),
-        ("Place", "Picture of this view", Command::Screenshot),
-        ("Place", "Write a large picture", Command::WritePicture),
-        ("Place", "Read the file again", Command::Reload),
+    for (tab, name, action) in [
+        ("Picture", "Open ...", Action::ChooseFile),
+        ("Picture", "Help", Action::ToggleHelp),
+        ("Picture", "Measure", Action::Take(Tool::Meter)),
+        ("Place", "Select", Action::Take(Tool::Choose)),
+        ("Meter", "View from", Action::Take(Tool::PatchView)),
+        ("Meter", "Measure a surface", Action::Take(Tool::Grid)),
+        ("Picture", "Frame all", Action::FrameAll),
+        ("Picture", "Fly", Action::ToggleWalking),
+        ("Picture", "auto", Action::ToggleAutoExposure),
+        ("Solution", "Bake", Action::Bake),
+        ("Solution", "Save the bake", Action::SaveBake),
+        ("Solution", "Record the bake", Action::ToggleRecording),
+        ("Place", first, Action::Jump(0)),
+        ("Place", "Add", Action::Bookmark(1)),
+        ("Place", "Picture of this view", Action::Screenshot),
+        ("Place", "Write a large picture", Action::WritePicture),
+        ("Place", "Read the file again", Action::Reload),
     ] {
         desk.get_by_label(tab).click();
         desk.run_steps(3);
@@ -157,7 +152,7 @@ fn buttons_ask_for_what_they_say() {
         let nodes: Vec<_> = desk.get_all_by_label(name).collect();
         nodes.last().expect("found").click();
         desk.run_steps(3);
-        assert_eq!(std::mem::take(&mut desk.state_mut().asked), [command], "{name}");
+        assert_eq!(std::mem::take(&mut desk.state_mut().asked), [action], "{name}");
     }
 }
 
@@ -209,7 +204,7 @@ fn every_slider_and_number_has_a_name() {
     }
     // egui_kittest itself fails where a control has none.
     click(&mut desk, "Picture");
-    assert_eq!(click(&mut desk, "Fit"), [Command::FitLuxScale]);
+    assert_eq!(click(&mut desk, "Fit"), [Action::FitLuxScale]);
 }
 
 #[test]
@@ -245,7 +240,7 @@ fn a_bake_can_be_cancelled_while_it_runs() {
         LightState::Working { stage: Stage::Solve, done: 0.4, elapsed: Duration::from_secs(3), is_cancelled: false };
     let mut desk = desk(facts(Some(cornell()), working));
     click(&mut desk, "Solution");
-    assert_eq!(click(&mut desk, "Cancel"), [Command::CancelBake]);
+    assert_eq!(click(&mut desk, "Cancel"), [Action::CancelBake]);
 }
 
 #[test]
@@ -261,7 +256,7 @@ fn what_needs_light_waits_for_it() {
 #[test]
 fn saving_says_that_dials_are_not_saved() {
     let mut facts = facts(Some(cornell()), LightState::Stored);
-    facts.is_solved = true;
+    facts.bake.is_solved = true;
     let mut desk = desk(facts);
     click(&mut desk, "Solution");
     let told = "Saves every light group as it was baked, whatever the dials say.";
@@ -278,7 +273,7 @@ fn trouble_is_shown_until_it_is_closed() {
     desk.state_mut().panels.trouble = Some(trouble);
     desk.run_steps(3);
     assert!(desk.query_by_label("no such file").is_some());
-    assert_eq!(click(&mut desk, "Open the built-in scene"), [Command::OpenBuiltIn]);
+    assert_eq!(click(&mut desk, "Open the built-in scene"), [Action::OpenBuiltIn]);
     assert_eq!(desk.state().panels.trouble, None);
 }
 
@@ -289,16 +284,16 @@ fn advice_stands_before_what_to_do() {
         let place = Place { lines: vec![[Vec3::ZERO, Vec3::X]] };
         vec![Advice { text: "open edges: 3; close gaps between walls".to_owned(), places: vec![place; 2] }]
     });
-    let mut desk = desk(Facts { advice, ..baked() });
+    let mut desk = desk(Facts { scene: SceneFacts { advice, ..baked().scene }, ..baked() });
     click(&mut desk, "Solution");
     assert!(
         desk.query_by_label("open edges: 3").is_some() && desk.query_by_label("close gaps between walls").is_some()
     );
-    assert_eq!(click(&mut desk, "Show where"), [Command::ShowWhere(0)]);
-    desk.state_mut().panels.found = Some(Found { advice: 0, place: 1 });
+    assert_eq!(click(&mut desk, "Show where"), [Action::ShowWhere(0)]);
+    desk.state_mut().panels.shown_advice = Some(AdviceLocation { advice: 0, location: 1 });
     desk.run_steps(3);
     assert!(desk.query_by_label("2 of 2").is_some());
-    assert_eq!(click(&mut desk, "Show the next"), [Command::ShowWhere(0)]);
+    assert_eq!(click(&mut desk, "Show the next"), [Action::ShowWhere(0)]);
 }
 
 #[test]
@@ -309,7 +304,7 @@ fn a_file_is_chosen_in_the_dialog() {
     desk.state_mut().panels.dialog = Some(OpenDialog::new(folder.path()));
     desk.run_steps(3);
     let asked = click(&mut desk, "hall.glb");
-    assert!(matches!(&asked[..], [Command::Open(path)] if path.ends_with("hall.glb")), "{asked:?}");
+    assert!(matches!(&asked[..], [Action::Open(path)] if path.ends_with("hall.glb")), "{asked:?}");
     assert!(desk.state().panels.dialog.is_none());
 }
 

@@ -5,6 +5,7 @@ use egui_kittest::kittest::Queryable as _;
 
 use super::super::*;
 use super::{Desk, baked, click, desk};
+use crate::base::ids::InstanceId;
 use crate::render::ShadowTechnique;
 use crate::render::shadow::DebugView;
 use crate::viewer::sight::Comparison;
@@ -26,7 +27,7 @@ fn choose(desk: &mut Harness<'static, Desk>, list: &str, entry: &str) {
 
 #[test]
 fn shadows_are_compared_and_looked_into() {
-    let mut desk = live(Facts { num_light_samples: 7, ..baked() });
+    let mut desk = live(Facts { shadows: ShadowFacts { num_light_samples: 7, ..ShadowFacts::default() }, ..baked() });
     choose(&mut desk, "Compare with", "Ray-traced");
     let rival = desk.state().panels.light.rival().expect("a rival");
     assert_eq!(rival.settings.technique, ShadowTechnique::Raytraced);
@@ -64,8 +65,8 @@ fn planes_and_casters_are_chosen_by_clicking() {
     let mut desk = live(baked());
     desk.state_mut().panels.light.shadows.technique = ShadowTechnique::Planar;
     desk.run_steps(3);
-    assert_eq!(click(&mut desk, "Choose planes"), [Command::Take(Tool::Receiver)]);
-    assert_eq!(click(&mut desk, "Choose casters"), [Command::Take(Tool::Caster)]);
+    assert_eq!(click(&mut desk, "Choose planes"), [Action::Take(Tool::Receiver)]);
+    assert_eq!(click(&mut desk, "Choose casters"), [Action::Take(Tool::Caster)]);
     desk.state_mut().panels.light.shadows.planar.casters.insert(InstanceId(1));
     desk.run_steps(3);
     click(&mut desk, "Choose none");
@@ -74,7 +75,14 @@ fn planes_and_casters_are_chosen_by_clicking() {
 
 #[test]
 fn a_known_fault_and_the_time_of_each_pass_are_told() {
-    let facts = Facts { fault: Some("wrong from here"), laps: &[("depth prepass", 1.25)], ..baked() };
+    let facts = Facts {
+        shadows: ShadowFacts {
+            fault: Some("wrong from here"),
+            laps: &[("depth prepass", 1.25)],
+            ..ShadowFacts::default()
+        },
+        ..baked()
+    };
     let desk = live(facts);
     assert!(desk.query_all_by_label("wrong from here").next().is_some());
     assert!(desk.query_by_label("depth prepass").is_some() && desk.query_by_label("1.2 ms").is_some());

@@ -1,0 +1,92 @@
+//! What the program has to say: a notice that goes away by itself, or trouble that stays until it is read.
+
+use std::time::{Duration, Instant};
+
+use egui::{Align2, Area, Frame, Id, Order, Rect, RichText, Ui};
+
+use super::super::action::Action;
+use super::super::facts::LightState;
+use super::theme;
+
+/// How long a notice stays.
+const NOTICE_TIME: Duration = Duration::from_secs(4);
+
+/// A line that goes away by itself.
+pub struct Notice {
+    text: String,
+    until: Instant,
+}
+
+impl Notice {
+    /// A notice that begins now.
+    pub fn new(text: impl Into<String>) -> Self {
+        Self { text: text.into(), until: Instant::now() + NOTICE_TIME }
+    }
+}
+
+/// Something that did not work.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trouble {
+    /// What did not work.
+    pub title: String,
+    /// Why, in full.
+    pub text: String,
+}
+
+/// Fills the place of the picture while there is none.
+pub fn empty_ui(ctx: &egui::Context, free: Rect, light: &LightState) {
+    let text = match light {
+        LightState::Working { .. } => "Opening ...",
+        _ => "Drop a .glb or .gltf file here, or press O",
+    };
+    let place = Area::new(Id::unique("empty")).pivot(Align2::CENTER_CENTER).fixed_pos(free.center());
+    place.order(Order::Background).interactable(false).show(ctx, |ui| {
+        ui.add(egui::Label::new(RichText::new(text).heading().weak()).extend());
+    });
+}
+
+pub fn notice_ui(ctx: &egui::Context, notice: &mut Option<Notice>) {
+    let Some(shown) = notice else { return };
+    let left = shown.until.saturating_duration_since(Instant::now());
+    if left.is_zero() {
+        *notice = None;
+        return;
+    }
+    ctx.request_repaint_after(left);
+    let place = Area::new(Id::unique("notice")).anchor(Align2::LEFT_TOP, [16.0, 16.0]).interactable(false);
+    place.show(ctx, |ui| {
+        Frame::window(ui.style()).show(ui, |ui| ui.add(egui::Label::new(RichText::new(&shown.text).strong()).extend()));
+    });
+}
+
+pub fn trouble_ui(ctx: &egui::Context, trouble: &mut Option<Trouble>, actions: &mut Vec<Action>) {
+    let Some(shown) = trouble.clone() else { return };
+    let title = RichText::new(&shown.title).strong().color(theme::ALARM);
+    let window = egui::Window::new(title).id(Id::unique("trouble")).collapsible(false).resizable(false);
+    window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).default_width(520.0).show(ctx, |ui| {
+        ui.add(egui::Label::new(&shown.text).wrap().selectable(true));
+        ui.add_space(6.0);
+        ui.label(RichText::new("Drop another .glb or .gltf file on the window, or choose one.").weak());
+        ui.add_space(6.0);
+        buttons_ui(ui, &shown, trouble, actions);
+    });
+}
+
+fn buttons_ui(ui: &mut Ui, shown: &Trouble, trouble: &mut Option<Trouble>, actions: &mut Vec<Action>) {
+    ui.horizontal(|ui| {
+        if ui.button("Close").clicked() {
+            *trouble = None;
+        }
+        if ui.button("Open the built-in scene").clicked() {
+            *trouble = None;
+            actions.push(Action::OpenBuiltIn);
+        }
+        if ui.button("Choose a file ...").clicked() {
+            *trouble = None;
+            actions.push(Action::ChooseFile);
+        }
+        if ui.button("Copy the text").clicked() {
+            ui.copy_text(format!("{}: {}", shown.title, shown.text));
+        }
+    });
+}

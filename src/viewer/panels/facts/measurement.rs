@@ -1,0 +1,21 @@
+//! Facts about measurements.
+
+use std::sync::Arc;
+
+use crate::viewer::meter::{Grid, Reading};
+use crate::viewer::patch_sight::PatchSight;
+
+/// What the panels show of measurements.
+#[derive(Clone, Copy, Default)]
+pub struct MeasurementFacts<'a> {
+    /// The last reading.
+    pub last: Option<&'a Reading>,
+    /// Readings that the user has pinned.
+    pub pins: &'a [Reading],
+    /// The last grid.
+    pub grid: Option<&'a Grid>,
+    /// The view from the chosen patch.
+    pub patch_view: Option<&'a Arc<PatchSight>>,
+    /// A measurement is running.
+    pub is_busy: bool,
+}

@@ -1,0 +1,17 @@
+//! Facts about the open scene.
+
+use crate::scene::Scene;
+use crate::viewer::advice::Advice;
+
+/// What the panels show of the open scene.
+#[derive(Clone, Copy, Default)]
+pub struct SceneFacts<'a> {
+    /// The open scene; `None` if there is none.
+    pub open: Option<&'a Scene>,
+    /// The chosen material variant of the file; `None` for the default materials.
+    pub variant: Option<&'a str>,
+    /// Number of triangles that store light; `None` before the first light.
+    pub num_elements: Option<usize>,
+    /// What the loader and the mesh doctor found.
+    pub advice: &'a [Advice],
+}

@@ -1,0 +1,4 @@
+//! Sections of the page Meter.
+
+pub mod lux_meter;
+pub mod patch_view;

@@ -1,0 +1,71 @@
+//! View from here: the unfolded hemicube of a patch, and its form factors as a heat map in the picture.
+
+use std::sync::Arc;
+
+use egui::{ColorImage, TextureHandle, TextureOptions, Ui};
+
+use super::super::action::Action;
+use super::super::chrome::widgets::{hint, row};
+use super::super::facts::Facts;
+use super::super::tool::Tool;
+use crate::viewer::patch_sight::{PatchSight, flag};
+
+/// The hemicube as egui draws it.
+#[derive(Default)]
+pub struct PatchViewPicture {
+    shows_items: bool,
+    /// Of this sight, with a colour for each element or shaded.
+    shown: Option<(Arc<PatchSight>, bool, TextureHandle)>,
+}
+
+pub fn patch_view_ui(
+    ui: &mut Ui,
+    picture: &mut PatchViewPicture,
+    shows_heat: &mut bool,
+    tool: Tool,
+    facts: &Facts<'_>,
+    actions: &mut Vec<Action>,
+) {
+    if !facts.bake.is_solved {
+        hint(ui, "Waits for the light: it needs a finished bake.");
+    } else if tool == Tool::PatchView {
+        hint(ui, "Click a surface to see what it sees.");
+    } else if ui.button("Choose a patch").on_hover_text("Then click a surface (N)").clicked() {
+        actions.push(Action::Take(Tool::PatchView));
+    }
+    let Some(sight) = facts.measurement.patch_view else { return };
+    ui.checkbox(shows_heat, "form factors as a heat map")
+        .on_hover_text("Red elements fill most of the view per area, blue ones a thousandth of it, grey ones nothing");
+    ui.checkbox(&mut picture.shows_items, "a colour for each element");
+    let texture = picture.texture(ui.ctx(), sight);
+    let width = ui.available_width();
+    ui.add(egui::Image::new((texture.id(), egui::vec2(width, width))).alt_text("Unfolded hemicube"));
+    row(ui, "Open or backs", format!("{:.1} %", 100.0 * sight.open_share));
+    row(ui, "Elements seen", sight.factors.iter().filter(|factor| **factor > 0.0).count().to_string());
+    ui.horizontal(|ui| buttons_ui(ui, sight, actions));
+}
+
+fn buttons_ui(ui: &mut Ui, sight: &PatchSight, actions: &mut Vec<Action>) {
+    if ui.button("Copy as an option").on_hover_text("For hemicube render: the same picture in a file").clicked() {
+        ui.copy_text(flag(&sight.point));
+    }
+    if ui.button("Forget it").on_hover_text("Takes the view and its heat map away").clicked() {
+        actions.push(Action::ClosePatchView);
+    }
+}
+
+impl PatchViewPicture {
+    fn texture(&mut self, ctx: &egui::Context, sight: &Arc<PatchSight>) -> TextureHandle {
+        if let Some((shown, items, texture)) = &self.shown
+            && Arc::ptr_eq(shown, sight)
+            && *items == self.shows_items
+        {
+            return texture.clone();
+        }
+        let bytes = if self.shows_items { &sight.items } else { &sight.shaded };
+        let image = ColorImage::from_rgba_unmultiplied(sight.size.map(|side| side as usize), bytes);
+        let texture = ctx.load_texture("hemicube", image, TextureOptions::NEAREST);
+        self.shown = Some((Arc::clone(sight), self.shows_items, texture.clone()));
+        texture
+    }
+}

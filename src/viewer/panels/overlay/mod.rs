@@ -1,0 +1,5 @@
+//! What is drawn over the picture.
+
+pub mod comparison;
+pub mod legend;
+pub mod markers;

@@ -1,0 +1,48 @@
+//! Output: pictures, and the camera for the command line.
+
+use egui::{ComboBox, DragValue, Role, Ui};
+
+use super::super::action::Action;
+use super::super::chrome::widgets::{named, wide_button};
+use super::super::facts::Facts;
+use crate::viewer::output::{PictureSettings, camera_flag};
+
+/// Sizes to choose from, pixels.
+const SIZES: [[u32; 2]; 5] = [[1280, 720], [1920, 1080], [2560, 1440], [3840, 2160], [7680, 4320]];
+
+pub fn output_ui(ui: &mut Ui, picture: &mut PictureSettings, facts: &Facts<'_>, actions: &mut Vec<Action>) {
+    if wide_button(
+        ui,
+        "Picture of this view",
+        facts.scene.open.is_some(),
+        "Writes hemicube-NNN.png without the panels (F12)",
+    ) {
+        actions.push(Action::Screenshot);
+    }
+    let name = |[width, height]: [u32; 2]| format!("{width} x {height}");
+    ComboBox::from_label("pixels").selected_text(name(picture.size)).show_ui(ui, |ui| {
+        for size in SIZES {
+            ui.selectable_value(&mut picture.size, size, name(size));
+        }
+    });
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut picture.is_exr, false, "PNG").on_hover_text("As displayed");
+        ui.selectable_value(&mut picture.is_exr, true, "EXR").on_hover_text("Linear radiance, nit");
+        let rays = ui.add(DragValue::new(&mut picture.num_rays).range(0..=4096).speed(0.5));
+        named(&rays, Role::SpinButton, "Rays a pixel");
+        ui.label("rays a pixel").on_hover_text("Traced over the baked light; 0 draws the picture as the window does");
+    });
+    let can_write = facts.scene.open.is_some() && (picture.num_rays == 0 || facts.bake.is_solved);
+    if facts.picture.is_writing {
+        if wide_button(ui, "Stop writing", true, "The picture is given up") {
+            actions.push(Action::CancelPicture);
+        }
+    } else if wide_button(ui, "Write a large picture", can_write, "Into the folder that the program was started in") {
+        actions.push(Action::WritePicture);
+    }
+    if let Some(eye) = facts.camera.pose
+        && wide_button(ui, "Copy the camera", true, "As an option of hemicube render")
+    {
+        ui.copy_text(camera_flag(&eye));
+    }
+}
