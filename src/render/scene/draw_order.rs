@@ -92,7 +92,7 @@ pub(super) fn index_buffer(gpu: &Gpu, indices: &[u32]) -> wgpu::Buffer {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec2, Vec3, Vec4};
+    use glam::Vec3;
 
     use super::*;
     use crate::base::ids::{InstanceId, MaterialId};
@@ -104,7 +104,7 @@ mod tests {
 
     fn scene_of(modes: &[(AlphaMode, bool)], triangles: Vec<Triangle>) -> Scene {
         let material = |&(alpha_mode, double_sided)| Material { alpha_mode, double_sided, ..Material::default() };
-        let vertex = Vertex { position: Vec3::ZERO, normal: Vec3::Y, uv: [Vec2::ZERO; 2], colour: Vec4::ONE };
+        let vertex = Vertex::new(Vec3::ZERO, Vec3::Y);
         let vertices = vec![vertex; modes.len()];
         Scene { materials: modes.iter().map(material).collect(), vertices, triangles, ..Scene::default() }
     }

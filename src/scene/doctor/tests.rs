@@ -1,28 +1,16 @@
-use glam::{Vec2, Vec3, Vec4};
+use glam::Vec3;
 
 use super::*;
-use crate::base::ids::{GroupId, InstanceId, MaterialId};
-use crate::scene::{Light, LightKind, Material, Triangle, Vertex};
+use crate::scene::{Light, Material, SceneBuilder};
 
 /// A scene of white diffuse triangles over these positions without shared vertices; normals follow the winding.
 fn soup(corners: &[[[f32; 3]; 3]]) -> Scene {
-    let vertices = corners.iter().flat_map(|corners| {
-        let positions = corners.map(Vec3::from);
-        let normal = normal_of(positions);
-        positions.map(|position| Vertex { position, normal, uv: [Vec2::ZERO; 2], colour: Vec4::ONE })
-    });
-    let triangle = |t: usize| Triangle {
-        vertices: [0, 1, 2].map(|c| 3 * t as u32 + c),
-        material: MaterialId(0),
-        instance: InstanceId(0),
-        is_back_side: false,
-    };
-    Scene {
-        vertices: vertices.collect(),
-        triangles: (0..corners.len()).map(triangle).collect(),
-        materials: vec![Material { name: "white".to_owned(), metallic: 0.0, ..Material::default() }],
-        ..Scene::default()
+    let mut builder = SceneBuilder::default();
+    let white = builder.material(Material { name: "white".to_owned(), ..Material::diffuse(Vec3::ONE) });
+    for corners in corners {
+        builder.triangle(corners.map(Vec3::from), white);
     }
+    builder.build()
 }
 
 const O: [f32; 3] = [0.0, 0.0, 0.0];
@@ -118,8 +106,7 @@ fn an_empty_scene_is_reported_as_empty_and_dark_only() {
 
 /// A spot 3 m above the triangle.
 fn spot(direction: Vec3, range: Option<f32>) -> Light {
-    let kind = LightKind::Spot { position: Vec3::new(0.2, 0.2, 3.0), direction, inner_angle: 0.0, outer_angle: 0.3 };
-    Light { name: "spot".into(), kind, intensity: Vec3::ONE, range, profile: None, group: GroupId(0) }
+    Light { range, ..Light::spot(Vec3::new(0.2, 0.2, 3.0), direction, [0.0, 0.3], Vec3::ONE) }
 }
 
 #[test]
