@@ -44,8 +44,7 @@ pub fn patch_view(
     size_px: u32,
 ) -> Result<PatchView, PatchViewError> {
     // The bake's triangles are its elements: they are not cut again.
-    let uncut = MeshSettings { element_size: f32::INFINITY, patch_size: f32::INFINITY };
-    let mesh = PatchMesh::new(&baked.scene, &uncut)?;
+    let mesh = PatchMesh::new(&baked.scene, &MeshSettings::uncut())?;
     let mut hemicubes = Hemicubes::new(gpu, &baked.scene, &mesh, size_px);
     let folded = hemicubes.elements_seen(viewpoint)?;
     let n = hemicubes.size_px() as usize;

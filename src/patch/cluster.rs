@@ -1,22 +1,22 @@
 //! Patches: clusters of neighbouring elements that face alike.
 //!
-//! Real scenes have many tiny triangles; shooting from each would cost a hemicube a triangle. Elements of one instance and
-//! material within one cell of a grid, with normals in one bin, that hang together over shared edges or lie close together,
-//! shoot as one.
+//! Real scenes have many tiny triangles, and a hemicube for each would be too many. A patch is a set of elements of one instance
+//! and material, within one cell of a grid and with normals in one bin, that are connected by shared edges or lie close
+//! together. It shoots as one.
 //!
 //! Source: Cohen, Greenberg, Immel, Brock 1986 (patches and elements); Willmott, Heckbert, Garland 1999 (face clusters).
 
 use glam::{IVec3, Vec3};
 use rustc_hash::FxHashMap;
 
-use super::{Element, Patch, PatchMesh};
+use super::mesh::{Element, Patch, PatchMesh};
 use crate::base::ids::{ElementId, PatchId};
 use crate::scene::{Scene, normal_of};
 
 /// Normals are binned on the faces of a cube of this many cells a side: clusters span about 40 degrees.
 const NORMAL_CELLS: f32 = 1.5;
 
-/// Elements closer than this share of a patch need no common edge: many scenes are soups of small pieces.
+/// Elements within this share of a patch size are joined without a shared edge: many scenes consist of separate small pieces.
 const CLOSE: f32 = 0.25;
 
 /// Groups the elements of `mesh` into patches about `patch_size` metres wide.
@@ -40,7 +40,7 @@ struct Key {
 
 fn key_of(mesh: &PatchMesh, scene: &Scene, element: &Element, patch_size: f32) -> Key {
     let triangle = &scene.triangles[element.triangle.index()];
-    // An odd shift keeps walls at round coordinates off the cell borders.
+    // An odd shift keeps walls at round coordinates away from the cell borders.
     let shifted = mesh.centroid(element) / patch_size + Vec3::new(0.137, 0.291, 0.413);
     let normal = normal_of(mesh.corners(element));
     let on_cube = normal / normal.abs().max_element().max(1e-6);
@@ -54,7 +54,7 @@ fn key_of(mesh: &PatchMesh, scene: &Scene, element: &Element, patch_size: f32) -
 
 /// Unites elements of equal key that share an edge of the mesh.
 fn join_across_edges(mesh: &PatchMesh, keys: &[Key], clusters: &mut UnionFind) {
-    // Edges are named by position, so that creases and texture seams do not part a patch.
+    // Edges are identified by position, so that creases and texture seams do not divide a patch.
     let mut places: FxHashMap<[u32; 3], u32> = FxHashMap::default();
     let place_of: Vec<u32> = mesh
         .light_vertices

@@ -1,189 +1,23 @@
 //! Floor 2: the scene cut up for light: elements receive, patches shoot, light vertices carry the result.
 //!
-//! Follows on loading; `form_factor` sees the elements through item buffers and `radiosity` solves on them. Deliberately
-//! absent: any light. A [`PatchMesh`] depends on geometry, reflectance and emission only.
+//! A [`PatchMesh`] depends on geometry, reflectance and emission only. `form_factor` draws its elements into item buffers and
+//! `radiosity` solves on them. Deliberately absent: any light.
+//!
+//! * `mesh`: the mesh itself. `cut`: a scene becomes a mesh.
+//! * `subdivide`: bisection of triangles into elements; `tree`: the bisection trees; `splits`: edges to bisect beyond the
+//!   element size; `propagate`: what keeps the mesh conforming then.
+//! * `optics`: reflectance and exitance of elements. `cluster`: elements into patches.
 
 mod cluster;
+mod cut;
+mod mesh;
 mod optics;
+mod propagate;
 mod splits;
 mod subdivide;
 mod tree;
 
-use std::ops::Range;
-
-use glam::{IVec3, Vec3};
-
-use crate::base::ids::{ElementId, GroupId, PatchId, TriangleId};
-use crate::scene::{Scene, Vertex};
-
+pub use mesh::{Element, LightKey, LightVertex, MeshSettings, Patch, PatchMesh, Root, light_key};
 pub use splits::Splits;
 pub use subdivide::MeshError;
 pub use tree::Node;
-
-/// How finely a scene is cut.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MeshSettings {
-    /// Longest edge of an element, metres.
-    pub element_size: f32,
-    /// Width of a patch, metres: elements within such a cell shoot as one.
-    pub patch_size: f32,
-}
-
-/// Elements, patches and the vertices that carry light.
-#[derive(Clone, Debug, Default)]
-pub struct PatchMesh {
-    /// Vertices `[v]` of the elements: those of the scene, flipped copies for backs, and edge midpoints.
-    pub vertices: Vec<Vertex>,
-    /// The light vertex of each vertex `[v]`.
-    pub light_vertex_of: Vec<u32>,
-    /// Places `[l]` at which irradiance is stored.
-    pub light_vertices: Vec<LightVertex>,
-    /// Elements `[e]`; the fronts of one input triangle side by side, then its backs in the same order.
-    pub elements: Vec<Element>,
-    /// Patches `[p]`.
-    pub patches: Vec<Patch>,
-    /// Elements of all patches, patch by patch.
-    pub members: Vec<ElementId>,
-    /// Children of the nodes of all bisection trees, in pairs.
-    pub tree: Vec<Node>,
-    /// Tree and element range of each input triangle `[t]`.
-    pub roots: Vec<Root>,
-}
-
-/// A place at which irradiance is stored, shared by all elements that meet there with one shading normal.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LightVertex {
-    /// Metres.
-    pub position: Vec3,
-    /// Unit shading normal.
-    pub normal: Vec3,
-}
-
-impl LightVertex {
-    /// The vertex at the middle of an edge.
-    #[must_use]
-    pub fn between(a: Self, b: Self) -> Self {
-        let normal = (a.normal + b.normal).try_normalize().unwrap_or(a.normal);
-        Self { position: (a.position + b.position) * 0.5, normal }
-    }
-}
-
-/// Names a light vertex by its place and shading normal, in whatever mesh of the scene it occurs.
-pub type LightKey = ([u32; 3], IVec3);
-
-/// The name of the light vertex at a place.
-#[must_use]
-pub fn light_key(position: Vec3, normal: Vec3) -> LightKey {
-    // Adding zero makes -0 and +0 one place.
-    ((position + Vec3::ZERO).to_array().map(f32::to_bits), (normal * 1000.0).round().as_ivec3())
-}
-
-/// The smallest receiver of light: a triangle within one input triangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Element {
-    /// Its vertices `[v]`, counter-clockwise seen from the side that reflects.
-    pub vertices: [u32; 3],
-    /// The input triangle it is a part of.
-    pub triangle: TriangleId,
-    /// It is on the back of a double-sided triangle.
-    pub is_back: bool,
-    /// The patch it shoots with.
-    pub patch: PatchId,
-    /// Solid area: area x share that is no hole, square metres.
-    pub area: f32,
-    /// Mean diffuse reflectance of the solid part per channel.
-    pub reflectance: Vec3,
-    /// Mean exitance of the solid part: pi x emitted radiance, lux per channel.
-    pub exitance: Vec3,
-    /// Light group of the exitance.
-    pub group: Option<GroupId>,
-}
-
-/// Neighbouring elements that face alike and shoot as one.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Patch {
-    /// Its elements: a range of [`PatchMesh::members`].
-    pub members: Range<usize>,
-    /// Solid area, square metres.
-    pub area: f32,
-}
-
-/// Where the bisection tree and the elements of an input triangle are.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Root {
-    /// Root of the bisection tree.
-    pub node: Node,
-    /// First front element.
-    pub first_element: u32,
-    /// Elements on one side. The back element of front element `e` is `e + num_elements` where there are backs.
-    pub num_elements: u32,
-    /// The triangle is double-sided: there are backs.
-    pub has_backs: bool,
-}
-
-impl PatchMesh {
-    /// Cuts a scene.
-    ///
-    /// Elements are conforming wherever the input is: an edge is split where it is longer than the element size, at its
-    /// midpoint, whichever triangle asks.
-    ///
-    /// # Errors
-    /// More elements than fit in memory or in an item id.
-    pub fn new(scene: &Scene, settings: &MeshSettings) -> Result<Self, MeshError> {
-        Self::refined(scene, settings, &mut Splits::default())
-    }
-
-    /// Cuts a scene, and halves the edges of `splits` beyond that; edges that have to follow are added to them.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
-    pub fn refined(scene: &Scene, settings: &MeshSettings, splits: &mut Splits) -> Result<Self, MeshError> {
-        let mut mesh = splits.cut(scene, settings.element_size)?;
-        optics::evaluate(&mut mesh, scene);
-        cluster::cluster(&mut mesh, scene, settings.patch_size);
-        Ok(mesh)
-    }
-
-    /// Corner positions of an element, metres.
-    #[must_use]
-    pub fn corners(&self, element: &Element) -> [Vec3; 3] {
-        element.vertices.map(|v| self.vertices[v as usize].position)
-    }
-
-    /// Centroid of an element, metres.
-    #[must_use]
-    pub fn centroid(&self, element: &Element) -> Vec3 {
-        let [a, b, c] = self.corners(element);
-        (a + b + c) / 3.0
-    }
-
-    /// Elements of a patch.
-    #[must_use]
-    pub fn members_of(&self, patch: &Patch) -> &[ElementId] {
-        &self.members[patch.members.clone()]
-    }
-
-    /// Light vertices of an element's corners.
-    #[must_use]
-    pub fn light_vertices_of(&self, element: &Element) -> [usize; 3] {
-        element.vertices.map(|v| self.light_vertex_of[v as usize] as usize)
-    }
-
-    /// Elements on one side of an input triangle; none on the back of a single-sided one.
-    #[must_use]
-    pub fn elements_of(&self, triangle: TriangleId, is_back: bool) -> &[Element] {
-        let root = self.roots[triangle.index()];
-        let (first, count) = (root.first_element as usize, root.num_elements as usize);
-        match is_back {
-            false => &self.elements[first..][..count],
-            true if root.has_backs => &self.elements[first + count..][..count],
-            true => &[],
-        }
-    }
-
-    /// The front element at a barycentric position of an input triangle.
-    #[must_use]
-    pub fn element_at(&self, triangle: TriangleId, barycentric: Vec3) -> ElementId {
-        ElementId(self.roots[triangle.index()].node.element_at(&self.tree, barycentric))
-    }
-}

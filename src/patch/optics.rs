@@ -1,15 +1,18 @@
 //! Mean reflectance, exitance and solid area of elements.
+//!
+//! Equation: with opacity a at sample points, the solid area is A mean(a), the reflectance sum(a rho) / sum(a) and the exitance
+//! pi sum(a L_e) / sum(a).
 
 use std::f32::consts::PI;
 
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::{Element, PatchMesh};
+use super::mesh::{Element, PatchMesh};
 use crate::base::sampling::{r2, triangle_from_square};
 use crate::scene::{Material, Scene, Vertex, area_of};
 
-/// Points at which a textured element is looked up.
+/// Sample points of an element whose material varies.
 const NUM_SAMPLES: u32 = 16;
 
 /// Fills in area, reflectance, exitance and group of every element.
@@ -26,7 +29,7 @@ fn evaluate_element(element: &mut Element, vertices: &[Vertex], scene: &Scene) {
     let mut reflected = Vec3::ZERO;
     let mut emitted = Vec3::ZERO;
     for i in 0..num_samples {
-        // The first point alone is the centroid.
+        // A single sample lies at the centroid.
         let weights =
             if num_samples == 1 { Vec3::splat(1.0 / 3.0) } else { triangle_from_square(r2(i, element.triangle.0)) };
         let (uv, colour) = Vertex::uv_and_colour_at(corners, weights);
@@ -35,7 +38,7 @@ fn evaluate_element(element: &mut Element, vertices: &[Vertex], scene: &Scene) {
         reflected += point.opacity * point.reflectance;
         emitted += point.opacity * point.emission;
     }
-    // What no sample met may still be met by a ray or pixel: no element is all hole.
+    // An element whose samples are all holes may still be met by a ray or pixel, so its area is not 0.
     let solid = solid.max(0.5);
     element.area = area_of(corners.map(|v| v.position)) * solid / num_samples as f32;
     element.reflectance = reflected / solid;
@@ -43,7 +46,7 @@ fn evaluate_element(element: &mut Element, vertices: &[Vertex], scene: &Scene) {
     element.group = if element.exitance.max_element() > 0.0 { material.group } else { None };
 }
 
-/// More than one look-up is needed for the mean over the element.
+/// The material may vary over the element, so that its mean needs several samples.
 fn varies(material: &Material, corners: [&Vertex; 3]) -> bool {
     material.base_colour_texture.is_some()
         || material.emissive_texture.is_some()

@@ -1,8 +1,8 @@
 //! Elements by longest-edge bisection.
 //!
-//! A triangle whose longest edge exceeds the element size is halved at that edge's midpoint, and so are its halves. In
-//! the end every edge that was too long has been split at its midpoint in both triangles that share it, so neighbours
-//! agree without asking each other, and angles stay above half the smallest input angle.
+//! A triangle whose longest edge exceeds the element size is halved at the midpoint of that edge, and so are its halves. Every
+//! edge that is too long is thereby split at its midpoint in both triangles that share it, so the mesh stays conforming
+//! although each triangle is cut by itself, and no angle falls below half the smallest angle of the input.
 //!
 //! Source: Rivara 1984, "Algorithms for refining triangular grids"; Baum, Mann, Smith, Winget 1991 (why T-vertices hurt).
 
@@ -10,34 +10,34 @@ use glam::Vec3;
 use rustc_hash::FxHashMap;
 use thiserror::Error;
 
+use super::mesh::{Element, LightKey, LightVertex, PatchMesh, Root, light_key};
 use super::splits::Splits;
 use super::tree::Node;
-use super::{Element, LightKey, LightVertex, PatchMesh, Root, light_key};
 use crate::base::ids::{PatchId, TriangleId};
 use crate::scene::{Scene, Vertex};
 
-/// Element ids must fit in a node beside depth and kind.
+/// Most elements: an id must fit in a node beside the depth and the kind.
 const MAX_ELEMENTS: usize = 1 << 26;
 
 /// Deepest regular tree that a node can hold.
 const MAX_REGULAR_DEPTH: u32 = 15;
 
-/// The scene cannot be cut as asked.
+/// Reasons why a scene cannot be cut.
 #[derive(Debug, Error)]
 pub enum MeshError {
-    /// Too fine.
+    /// The element size is too small.
     #[error("an element size of {element_size} m gives more than {max} elements; choose a larger one", max = MAX_ELEMENTS)]
     TooManyElements {
         /// Metres.
         element_size: f32,
     },
-    /// Nothing to light.
+    /// There is no surface to light.
     #[error("the scene has no triangles")]
     Empty,
 }
 
-/// Cuts all triangles of the scene, at edges longer than the element size or among `splits`; optics and patches of the
-/// elements are still blank.
+/// Cuts all triangles of the scene, at edges longer than the element size or among `splits`. Leaves optics and patches of the
+/// elements blank.
 pub(super) fn subdivide(scene: &Scene, element_size: f32, splits: &Splits) -> Result<PatchMesh, MeshError> {
     if scene.triangles.is_empty() {
         return Err(MeshError::Empty);
@@ -126,7 +126,7 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// Mirrors front elements on to the back of a double-sided triangle, over flipped copies of their vertices.
+    /// Adds the backs of front elements, over copies of their vertices with flipped normals.
     fn add_backs(&mut self, fronts: std::ops::Range<usize>, corners: [u32; 3]) {
         for corner in corners {
             self.flipped_copy(corner);
@@ -177,7 +177,7 @@ impl<'a> Cutter<'a> {
         light_vertex
     }
 
-    /// Adds a vertex of the input, welding its light with vertices of the same place and shading normal.
+    /// Adds a vertex of the input; vertices with one position and shading normal share a light vertex.
     fn add_welded(&mut self, vertex: Vertex) -> u32 {
         let key = light_key(vertex.position, vertex.normal);
         let next = self.mesh.light_vertices.len() as u32;

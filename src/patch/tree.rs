@@ -1,12 +1,12 @@
-//! Bisection trees: which element holds a point of an input triangle.
+//! Bisection trees: they find the element that contains a point of an input triangle.
 
 use glam::Vec3;
 
 /// A node of a bisection tree in 32 bits.
 ///
 /// A triangle with corners `a, f, s`, apex first, is halved at the midpoint `m` of `f` and `s` into `(m, a, f)` and
-/// `(m, s, a)`: the newest corner comes first. Where the newest corner stays the apex for a number of levels, as it does in
-/// most triangles after a level or two, the whole tree below is regular and one node tells all of it.
+/// `(m, s, a)`: the newest corner comes first. In most triangles the newest corner is the apex after a level or two. If it is
+/// the apex for all levels below, and all leaves have one depth, the tree is regular and a single node describes it.
 ///
 /// * `first element << 6 | depth << 2`: a regular tree of `2^depth` elements, a single element at depth 0;
 /// * `index of two children << 2 | apex + 1`: halved at the edge opposite corner `apex`.
@@ -25,9 +25,15 @@ impl Node {
         Self(children << 2 | (apex as u32 + 1))
     }
 
-    /// First element and depth of a regular tree.
-    pub(super) fn as_regular(self) -> Option<(u32, u32)> {
+    /// First element and depth of a regular tree. `None` for a node that is split otherwise.
+    pub(crate) fn as_regular(self) -> Option<(u32, u32)> {
         (self.0 & 3 == 0).then_some((self.0 >> 6, self.0 >> 2 & 15))
+    }
+
+    /// Apex and index of the first of two children of a node that is not regular.
+    #[expect(dead_code)]
+    pub(crate) fn as_split(self) -> Option<(usize, usize)> {
+        (self.0 & 3 != 0).then(|| ((self.0 & 3) as usize - 1, (self.0 >> 2) as usize))
     }
 
     /// The bits, as shaders see them.
@@ -36,7 +42,7 @@ impl Node {
         self.0
     }
 
-    /// The element at barycentric position `weights` of this node's triangle; `tree` holds the children.
+    /// The element at barycentric position `weights` of the triangle of this node; `tree` holds the children.
     ///
     /// The fragment shader of the item buffer does the same.
     pub(super) fn element_at(mut self, tree: &[Self], weights: Vec3) -> u32 {
@@ -57,7 +63,7 @@ impl Node {
     }
 }
 
-/// Replaces weights of `(a, f, s)` by those of the half that holds the point; true for the second half.
+/// Replaces weights of `(a, f, s)` by those of the half that contains the point. Returns true for the second half.
 fn halve(weights: &mut [f32; 3]) -> bool {
     let [at_apex, first, second] = *weights;
     let is_second = second > first;

@@ -42,8 +42,7 @@ impl Solved {
     /// It has no elements.
     pub fn of_file(baked: BakedScene) -> Result<Self, MeshError> {
         // The triangles are the elements: they are not cut again.
-        let uncut = MeshSettings { element_size: f32::INFINITY, patch_size: f32::INFINITY };
-        let mesh = PatchMesh::new(&baked.scene, &uncut)?;
+        let mesh = PatchMesh::new(&baked.scene, &MeshSettings::uncut())?;
         let scene = Arc::new(baked.scene.clone());
         Ok(Self { scene, mesh, baked, quality: Quality::default(), report: None })
     }

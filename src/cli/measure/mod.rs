@@ -90,8 +90,7 @@ fn by_radiosity(scene: Scene, points: &[MeasuringPoint], args: &MeasureArgs, ter
     let settings = args.bake.settings();
     let lit = match baked::gltf::from_scene(scene) {
         Ok(baked) => {
-            let uncut = MeshSettings { element_size: f32::INFINITY, patch_size: f32::INFINITY };
-            let mesh = PatchMesh::new(&baked.scene, &uncut)?;
+            let mesh = PatchMesh::new(&baked.scene, &MeshSettings::uncut())?;
             LitScene { original: None, mesh, baked }
         }
         Err(scene) => {

@@ -1,18 +1,32 @@
 //! Walks through small worlds of rectangles.
 
+use glam::{Vec2, Vec4};
+
 use super::*;
-use crate::scene::{Material, SceneBuilder};
+use crate::base::ids::{InstanceId, MaterialId};
+use crate::scene::{Scene, Triangle, Vertex};
 
 const FRAME: f32 = 1.0 / 60.0;
 
 /// Quads, corner by corner.
 fn world(quads: &[[Vec3; 4]]) -> Collider {
-    let mut builder = SceneBuilder::default();
-    let grey = builder.material(Material::diffuse(Vec3::splat(0.5)));
+    let mut scene = Scene::default();
     for &quad in quads {
-        builder.quad(quad, grey);
+        let first = scene.vertices.len() as u32;
+        scene.vertices.extend(quad.map(|position| Vertex {
+            position,
+            normal: Vec3::Y,
+            uv: [Vec2::ZERO; 2],
+            colour: Vec4::ONE,
+        }));
+        scene.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|corners| Triangle {
+            vertices: corners.map(|corner| first + corner),
+            material: MaterialId(0),
+            instance: InstanceId(0),
+            is_back_side: false,
+        }));
     }
-    Collider::new(&builder.build())
+    Collider::new(&scene)
 }
 
 /// A level rectangle at height `y`.
