@@ -1,36 +1,36 @@
-//! The picture that rays add up to, tile by tile on all cores, pass by pass as long as somebody looks.
+//! A picture that samples are added to, tile by tile on all cores, pass by pass.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{Vec2, Vec3, Vec4};
 use rayon::prelude::*;
 
-use super::path::{Chance, Ray};
-use super::sampler::Sampler;
 use crate::base::colour::luminance;
 use crate::base::progress::{Progress, Stage};
 use crate::base::sampling::hash;
+use crate::raytrace::ray::{Ray, RaySource};
+use crate::raytrace::sampler::Sampler;
 use crate::scene::{Camera, Projection};
 
-/// Pixels that one core takes at a time, across and down.
+/// Width and height of a tile, in pixels.
 const TILE: u32 = 16;
 
-/// A traced picture in the making, row by row from the top.
+/// A traced picture, row by row from the top, to which samples can be added.
 ///
-/// Passes add up: one of 16 samples is what four of 4 samples are.
+/// Passes add up: one pass of 16 samples gives the same picture as four passes of 4.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Film {
     size: [u32; 2],
     samples: u32,
-    /// Sums of radiance and coverage `[pixel][half]`: samples of even and of odd numbers are independent, and how far their
-    /// means are apart tells the error of both together.
+    /// Sums of radiance and coverage `[pixel][half]`. Samples with even and with odd numbers are independent, so the
+    /// difference of their means gives the error of the whole.
     sums: Vec<[Vec4; 2]>,
 }
 
-/// What a pass adds to pixels, by their number.
+/// Sums that a pass adds to pixels, with the numbers of the pixels.
 type Tile = Vec<(u32, [Vec4; 2])>;
 
-/// How well a picture is known.
+/// Standard errors of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FilmNoise {
     /// Root mean square of the pixels' standard errors over that of the picture.
@@ -40,7 +40,7 @@ pub struct FilmNoise {
 }
 
 impl Film {
-    /// A picture of `size` pixels without a sample.
+    /// A picture of `size` pixels without samples.
     #[must_use]
     pub fn new(size: [u32; 2]) -> Self {
         Self { size, samples: 0, sums: vec![[Vec4::ZERO; 2]; size[0] as usize * size[1] as usize] }
@@ -58,17 +58,18 @@ impl Film {
         self.samples
     }
 
-    /// Linear radiance before exposure, premultiplied by the fourth channel, the share of the pixel that is covered; empty
-    /// without a sample.
+    /// Linear radiance before exposure, premultiplied by the fourth channel, the share of the pixel that is covered; all 0
+    /// without samples.
     #[must_use]
     pub fn radiance(&self) -> Vec<[f32; 4]> {
         let count = self.samples.max(1) as f32;
         self.sums.iter().map(|[even, odd]| ((*even + *odd) / count).to_array()).collect()
     }
 
-    /// Adds `samples` rays a pixel through a box filter: what `radiance` finds along a ray from the eye; none is the open.
-    /// False where it was cancelled: the picture is then as it was before.
-    pub(super) fn refine(
+    /// Adds `samples` rays a pixel through a box filter. Returns false if it was cancelled, and leaves the picture as it was.
+    ///
+    /// `radiance` returns the radiance along a camera ray, or `None` if the ray leaves the scene.
+    pub(crate) fn refine(
         &mut self,
         camera: &Camera,
         samples: u32,
@@ -76,7 +77,7 @@ impl Film {
         progress: &dyn Progress,
         radiance: impl Fn(Ray, &mut Sampler) -> Option<Vec3> + Sync,
     ) -> bool {
-        let eye = Eye::new(camera, self.size);
+        let view = RaySetup::new(camera, self.size);
         let numbers = self.samples..self.samples + samples;
         let tiles = [self.size[0].div_ceil(TILE), self.size[1].div_ceil(TILE)];
         let num_tiles = tiles[0] * tiles[1];
@@ -90,7 +91,7 @@ impl Film {
                 let pixels = (top..(top + TILE).min(self.size[1])).flat_map(|y| columns.clone().map(move |x| [x, y]));
                 let pixel = |[x, y]: [u32; 2]| {
                     let number = y * self.size[0] + x;
-                    let seen = || sums(&eye, [x, y], numbers.clone(), hash(seed) ^ number, &radiance);
+                    let seen = || sums(&view, [x, y], numbers.clone(), hash(seed) ^ number, &radiance);
                     (!progress.is_cancelled()).then(|| (number, seen()))
                 };
                 let pixels = pixels.map(pixel).collect();
@@ -109,6 +110,8 @@ impl Film {
     }
 
     /// Squared standard error of a pixel's luminance; 0 with a single sample.
+    ///
+    /// Equation: the mean of two independent halves a and b has the variance (a - b)^2 / 4.
     fn variance(&self, [even, odd]: &[Vec4; 2]) -> f32 {
         if self.samples < 2 {
             return 0.0;
@@ -118,7 +121,7 @@ impl Film {
         0.25 * luminance(apart.truncate()).powi(2)
     }
 
-    /// How well the picture is known; 0 where it is dark.
+    /// Standard errors of the picture, relative to its luminance; 0 if it is dark.
     #[must_use]
     pub fn noise(&self) -> FilmNoise {
         let luminances = self.radiance().into_iter().map(|[r, g, b, _]| f64::from(luminance(Vec3::new(r, g, b))));
@@ -131,7 +134,7 @@ impl Film {
 
 /// Sums over the even and over the odd samples of one pixel.
 fn sums(
-    eye: &Eye<'_>,
+    view: &RaySetup<'_>,
     pixel: [u32; 2],
     samples: std::ops::Range<u32>,
     seed: u32,
@@ -141,7 +144,7 @@ fn sums(
     for sample in samples {
         let half = sample % 2;
         let mut sampler = Sampler::new(seed ^ (half << 31), sample / 2);
-        let ray = eye.ray(pixel, sampler.square());
+        let ray = view.ray(pixel, sampler.square());
         if let Some(found) = radiance(ray, &mut sampler) {
             sums[half as usize] += found.extend(1.0);
         }
@@ -149,13 +152,13 @@ fn sums(
     sums
 }
 
-/// Where rays through pixels come from.
-struct Eye<'a> {
+/// The camera rays of a picture.
+struct RaySetup<'a> {
     camera: &'a Camera,
     size: Vec2,
 }
 
-impl<'a> Eye<'a> {
+impl<'a> RaySetup<'a> {
     fn new(camera: &'a Camera, size: [u32; 2]) -> Self {
         Self { camera, size: Vec2::new(size[0] as f32, size[1] as f32) }
     }
@@ -175,7 +178,7 @@ impl<'a> Eye<'a> {
                 (camera.position + aside, camera.forward())
             }
         };
-        Ray { origin, direction, chance: Chance::Eye }
+        Ray { origin, direction, source: RaySource::Camera }
     }
 }
 
@@ -204,16 +207,16 @@ mod tests {
     #[test]
     fn rays_go_through_their_pixels() {
         let camera = camera();
-        let eye = Eye::new(&camera, [4, 2]);
-        let corner = eye.ray([0, 0], Vec2::ZERO).direction;
+        let view = RaySetup::new(&camera, [4, 2]);
+        let corner = view.ray([0, 0], Vec2::ZERO).direction;
         assert!((corner / -corner.z - Vec3::new(-2.0, 1.0, -1.0)).length() < 1e-5, "{corner}");
-        let other = eye.ray([3, 1], Vec2::ONE).direction;
+        let other = view.ray([3, 1], Vec2::ONE).direction;
         assert!((other / -other.z - Vec3::new(2.0, -1.0, -1.0)).length() < 1e-5, "{other}");
     }
 
     #[test]
     fn the_stated_error_is_the_true_one() {
-        // Two values as likely as each other scatter by half their distance.
+        // Two equally likely values have a standard deviation of half their distance.
         let samples = 64;
         let coin = |_, sampler: &mut Sampler| Some(Vec3::splat(2.0 * (sampler.bits() % 2) as f32));
         let film = film([64, 64], &[samples], 1, coin);
@@ -225,7 +228,7 @@ mod tests {
     }
 
     #[test]
-    fn a_seed_gives_the_same_picture_each_time_and_another_one_another() {
+    fn equal_seeds_give_equal_pictures_and_different_seeds_different_ones() {
         let random = |_, sampler: &mut Sampler| Some(Vec3::splat(sampler.number()));
         let film = |seed| film([40, 20], &[3], seed, random);
         assert_eq!(film(1), film(1));
@@ -233,14 +236,14 @@ mod tests {
     }
 
     #[test]
-    fn many_passes_add_up_to_one() {
+    fn several_passes_equal_one_pass_of_all_samples() {
         // Sums of whole numbers are exact in any order.
         let random = |_, sampler: &mut Sampler| Some(Vec3::splat((sampler.bits() % 64) as f32));
         assert_eq!(film([20, 10], &[1, 3, 2], 5, random), film([20, 10], &[6], 5, random));
     }
 
     #[test]
-    fn what_is_open_is_not_covered() {
+    fn rays_that_leave_the_scene_cover_nothing() {
         let film = film([4, 2], &[8], 0, |ray, _| (ray.direction.x > 0.0).then_some(Vec3::ONE));
         assert_eq!((film.radiance()[0], film.radiance()[3]), ([0.0; 4], [1.0; 4]));
     }

@@ -1,52 +1,35 @@
 //! Floor 3: pictures and measurements by rays on the CPU.
 //!
-//! [`path_traced`] and [`irradiance()`] are the truth, by unbiased paths; [`two_pass()`] shows a bake with traced direct
-//! light and mirrors. Units and conventions are those of radiosity: surfaces are single-sided unless their material says
-//! otherwise, a back blocks light and is black, and diffuse light is sent on from the geometric surface. Deliberately
-//! absent: the GPU, exposure and tone mapping (a picture here is linear radiance), light of punctual lights that a mirror
-//! throws.
+//! [`path_traced`] and [`irradiance()`] are unbiased estimates by path tracing, the reference for all other methods;
+//! [`two_pass()`] shows a bake with traced direct light and mirrors. Units and conventions are those of radiosity: a surface
+//! is single-sided unless its material says otherwise, a back blocks light and is black, and diffuse light leaves the
+//! geometric surface. Pictures are linear radiance. Deliberately absent: the GPU, exposure and tone mapping, light of
+//! punctual lights by way of mirrors.
+//!
+//! * `ray`, `sampler`, `settings`: what all of it shares.
+//! * `surface/`: what a ray meets, and how light scatters there.
+//! * `light/`: lamps and punctual lights, and how one of many is chosen.
+//! * `path/`: rays through the lit scene, and path tracing.
+//! * `caustics/`: the light that a bake lacks because it is cast by mirrors and panes.
+//! * `point_irradiance/`: irradiance at points, traced or from a bake.
+//! * `film`, `two_pass`: pictures.
 
-mod connection;
-mod direct;
+mod caustics;
 mod film;
-mod gather;
-mod irradiance;
-mod light_bounds;
-mod light_tree;
-mod lights;
-mod mirrors;
-mod normal_map;
+mod light;
 mod path;
-mod photons;
+mod point_irradiance;
+mod ray;
 mod sampler;
 mod settings;
-mod specular;
-mod stored;
+mod stored_light;
 mod surface;
-mod thrown;
 mod two_pass;
 
 pub use film::{Film, FilmNoise};
-pub use gather::{GatherPrecision, gathered_irradiance, stored_irradiance};
-pub use irradiance::{Irradiance, MeasuringPoint, irradiance};
+pub use path::path_tracer::path_traced;
+pub use point_irradiance::from_bake::{GatherPrecision, gathered_irradiance, stored_irradiance};
+pub use point_irradiance::path_traced::{Irradiance, irradiance};
+pub use point_irradiance::point::MeasuringPoint;
 pub use settings::{Ambient, PathSettings, TwoPassSettings};
 pub use two_pass::{SecondPass, two_pass};
-
-use crate::base::progress::Progress;
-use crate::scene::Camera;
-use crate::trace::Tracer;
-
-/// A path-traced picture, unbiased; without a sample where it was cancelled.
-#[must_use]
-pub fn path_traced(
-    tracer: &Tracer<'_>,
-    camera: &Camera,
-    size: [u32; 2],
-    settings: &PathSettings,
-    progress: &dyn Progress,
-) -> Film {
-    let paths = path::PathTracer::new(tracer, settings.max_bounces, settings.has_specular);
-    let mut film = Film::new(size);
-    film.refine(camera, settings.samples, settings.seed, progress, |ray, sampler| paths.seen(ray, sampler));
-    film
-}

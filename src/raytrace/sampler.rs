@@ -1,30 +1,33 @@
-//! Where a path turns: points of the unit square, spread evenly over all paths of one place.
+//! Random numbers of paths: points of the unit square that are spread evenly over all paths of a pixel or point.
 //!
-//! Source: Burley 2020, "Practical Hash-based Owen Scrambling" (shuffled, scrambled Sobol points, one pair of dimensions
-//! a decision).
+//! Each decision of a path takes a pair of Sobol dimensions. Owen scrambling keeps their even spread (every 2^n points fill the
+//! elementary intervals of the square) and makes sequences with different seeds independent; shuffled indices make the
+//! decisions of one path independent.
+//!
+//! Source: Burley 2020, "Practical Hash-based Owen Scrambling".
 
 use glam::Vec2;
 
 use crate::base::sampling::{hash, unit_float};
 
-/// Hands out the random decisions of one path, in the order in which they are asked for.
+/// The random numbers of one path, in the order of its decisions.
 #[derive(Clone, Debug)]
-pub(super) struct Sampler {
-    /// Tells places (pixels, points) apart.
+pub(crate) struct Sampler {
+    /// One for each pixel or point.
     seed: u32,
-    /// Number of the path at this place.
+    /// Number of the path at this pixel or point.
     index: u32,
     num_decisions: u32,
 }
 
 impl Sampler {
-    /// The decisions of the `index`-th path at the place that `seed` names.
-    pub(super) fn new(seed: u32, index: u32) -> Self {
+    /// The numbers of the `index`-th path at the pixel or point with this seed.
+    pub(crate) fn new(seed: u32, index: u32) -> Self {
         Self { seed: hash(seed), index, num_decisions: 0 }
     }
 
     /// The next point of the unit square.
-    pub(super) fn square(&mut self) -> Vec2 {
+    pub(crate) fn square(&mut self) -> Vec2 {
         let seed = self.next_seed();
         let index = owen_scrambled(self.index, seed);
         let x = owen_scrambled(index.reverse_bits(), hash(seed ^ 0x5851_f42d));
@@ -33,14 +36,14 @@ impl Sampler {
     }
 
     /// The next number in [0, 1).
-    pub(super) fn number(&mut self) -> f32 {
+    pub(crate) fn number(&mut self) -> f32 {
         let seed = self.next_seed();
         let index = owen_scrambled(self.index, seed);
         unit_float(owen_scrambled(index.reverse_bits(), hash(seed ^ 0x5851_f42d)))
     }
 
-    /// The next 32 bits that follow no pattern, other ones for each path.
-    pub(super) fn bits(&mut self) -> u32 {
+    /// The next 32 bits, independent between paths.
+    pub(crate) fn bits(&mut self) -> u32 {
         hash(self.next_seed() ^ hash(self.index))
     }
 
@@ -50,7 +53,7 @@ impl Sampler {
     }
 }
 
-/// Every bit flipped or not as a hash of the bits above it says.
+/// Flips each bit by a hash of the bits above it.
 fn owen_scrambled(bits: u32, seed: u32) -> u32 {
     // Laine and Karras 2011 scramble from the lowest bit up.
     let mut x = bits.reverse_bits();
@@ -76,14 +79,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_second_dimension_is_that_of_sobol() {
+    fn the_second_dimension_has_the_direction_numbers_of_sobol() {
         // Direction numbers 1, 3, 5, 15 (Joe and Kuo 2008), left-aligned.
         let expected = [0x8000_0000, 0xc000_0000, 0xa000_0000, 0xf000_0000];
         assert_eq!(std::array::from_fn(|bit| sobol_second(1 << bit)), expected);
     }
 
     #[test]
-    fn sixteen_points_fill_every_sixteenth_of_the_square_once() {
+    fn sixteen_points_fill_each_sixteenth_of_the_square_once() {
         for (columns, rows) in [(16, 1), (8, 2), (4, 4), (2, 8), (1, 16)] {
             let mut counts = [0; 16];
             for index in 32..48 {
@@ -97,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn two_decisions_of_a_path_do_not_follow_each_other() {
+    fn two_decisions_of_a_path_are_uncorrelated() {
         let product = |index| {
             let mut sampler = Sampler::new(3, index);
             (sampler.number() - 0.5) * (sampler.number() - 0.5)

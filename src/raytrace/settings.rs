@@ -1,4 +1,4 @@
-//! What the ray tracers are asked for.
+//! Settings of path tracing and of two-pass ray tracing.
 
 use glam::Vec3;
 
@@ -7,12 +7,12 @@ use glam::Vec3;
 pub struct PathSettings {
     /// Paths a pixel or point.
     pub samples: u32,
-    /// Light is followed from the lamp through at most this many reflections; 0 leaves direct light at points, and only
-    /// the lamps in pictures.
+    /// Most reflections between a lamp and the camera or the measured point; 0 leaves direct light at points, and only the
+    /// lamps in pictures.
     pub max_bounces: u32,
-    /// Metals and glass send light on; false is what radiosity solves, where they do not.
+    /// Metals and glass send light on. False gives what radiosity solves, where metals absorb and glass is opaque.
     pub has_specular: bool,
-    /// Another seed is another, independent estimate.
+    /// Different seeds give independent estimates.
     pub seed: u32,
 }
 
@@ -25,11 +25,11 @@ impl Default for PathSettings {
 /// Settings of two-pass ray tracing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoPassSettings {
-    /// Rays from the eye a pixel.
+    /// Camera rays a pixel.
     pub samples: u32,
-    /// Where light comes from that does not come straight from the lights.
+    /// Source of the light that does not come straight from the lights.
     pub ambient: Ambient,
-    /// Another seed is another, independent estimate.
+    /// Different seeds give independent estimates.
     pub seed: u32,
 }
 
@@ -39,18 +39,19 @@ impl Default for TwoPassSettings {
     }
 }
 
-/// The light at a surface that is not traced to the lights.
+/// The light at a surface that is not traced to a light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ambient {
-    /// None.
+    /// There is none.
     None,
-    /// The same everywhere: the radiance that ideal white paint shows. Only perfect mirrors and panes are followed.
+    /// Equal everywhere: the radiance of ideal white paint. Only perfect mirrors and panes are followed (Whitted 1980).
     Constant(Vec3),
     /// The indirect light of the bake.
     Indirect {
-        /// Rays that look for it at the first diffuse surface, and take it from the next; 0 takes it from the vertices.
+        /// Rays of the final gather from the first diffuse surface, which take the light stored at the next one; 0 takes the
+        /// light stored at the first.
         final_gather: u32,
     },
-    /// All light is that of the bake; lights are not traced.
+    /// All light of the bake, direct light included; lights are not traced.
     All,
 }

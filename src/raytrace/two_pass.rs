@@ -1,9 +1,9 @@
 //! The second pass: ray tracing that takes its ambient light from radiosity.
 //!
-//! From the eye to the first diffuse surface everything depends on the view and is traced: direct light with shadow rays,
-//! mirrors, glossy metal, panes. What reaches that surface indirectly does not, and was solved in the first pass, but for
-//! what mirrors throw, which is solved here before the first ray. With a constant in place of indirect light this is the
-//! classic ray tracing of Whitted 1980.
+//! Light between the camera and the first diffuse surface depends on the view and is traced: direct light with shadow rays,
+//! mirrors, glossy metal, panes. Indirect light at that surface does not depend on the view and is solved in the first pass,
+//! radiosity; caustics, which radiosity lacks, are solved here before the first ray. With a constant in place of indirect
+//! light this is the classic ray tracing of Whitted 1980.
 //!
 //! Sources: Whitted 1980, "An Improved Illumination Model for Shaded Display"; Wallace, Cohen, Greenberg 1987, "A Two-pass
 //! Solution to the Rendering Equation"; Smits, Arvo, Salesin 1992 (the final gather).
@@ -12,21 +12,24 @@ use std::f32::consts::{FRAC_1_PI, PI};
 
 use glam::Vec3;
 
-use super::film::Film;
-use super::mirrors::follow;
-use super::path::{Chance, PathTracer, Ray};
-use super::sampler::Sampler;
-use super::settings::{Ambient, TwoPassSettings};
-use super::stored::StoredLight;
-use super::surface::Surface;
-use super::thrown::{has_mirrors, thrown_light};
 use crate::baked::BakedScene;
 use crate::base::progress::Progress;
 use crate::base::sampling::cosine_hemisphere;
+use crate::raytrace::caustics::caustic_light::{caustic_light, has_mirrors};
+use crate::raytrace::film::Film;
+use crate::raytrace::path::ray_caster::RayCaster;
+use crate::raytrace::path::specular_chain::follow;
+use crate::raytrace::ray::{Ray, RaySource};
+use crate::raytrace::sampler::Sampler;
+use crate::raytrace::settings::{Ambient, TwoPassSettings};
+use crate::raytrace::stored_light::StoredLight;
+use crate::raytrace::surface::hit::Surface;
 use crate::scene::Camera;
 use crate::trace::Tracer;
 
-/// A picture of a baked scene, whose elements `tracer` holds; without a sample where it was cancelled.
+/// Renders a picture of a baked scene. Returns a film without samples if it was cancelled.
+///
+/// `tracer` must hold the elements of `baked`.
 #[must_use]
 pub fn two_pass(
     tracer: &Tracer<'_>,
@@ -45,18 +48,19 @@ pub fn two_pass(
 
 /// The second pass over a bake, ready for pictures from any viewpoint.
 ///
-/// For a picture that gets better while it is looked at: [`Self::refine`] a [`Film`] by a few samples at a time and show
-/// [`Film::radiance`] after each.
+/// For a picture that improves while it is on the screen, [`Self::refine`] a [`Film`] by a few samples at a time and show
+/// [`Film::radiance`] after each call.
 pub struct SecondPass<'a> {
-    rays: PathTracer<'a>,
+    rays: RayCaster<'a>,
     stored: StoredLight<'a>,
     settings: TwoPassSettings,
 }
 
 impl<'a> SecondPass<'a> {
-    /// Prepares the second pass over `baked`, whose elements `tracer` holds. None where it was cancelled.
+    /// Prepares the second pass over `baked`. Returns `None` if it was cancelled.
     ///
-    /// Cost: seconds where there are mirrors or panes, whose light is solved here; else next to nothing.
+    /// `tracer` must hold the elements of `baked`. Cost: seconds if there are mirrors or panes, whose caustics are solved
+    /// here; else next to nothing.
     #[must_use]
     pub fn new(
         tracer: &'a Tracer<'a>,
@@ -64,44 +68,43 @@ impl<'a> SecondPass<'a> {
         settings: &TwoPassSettings,
         progress: &dyn Progress,
     ) -> Option<Self> {
-        let (rays, mut stored) = (PathTracer::new(tracer, 0, true), StoredLight::new(baked));
+        let (rays, mut stored) = (RayCaster::new(tracer, true), StoredLight::new(baked));
         if matches!(settings.ambient, Ambient::Indirect { .. }) && has_mirrors(rays.scene()) {
-            let thrown = thrown_light(&rays, &stored, progress)?;
-            stored.add(&thrown);
+            let caustics = caustic_light(&rays, &stored, progress)?;
+            stored.add(&caustics);
         }
         Some(Self { rays, stored, settings: *settings })
     }
 
-    /// Adds `samples` rays a pixel to a picture. False where it was cancelled: the picture is then as it was before.
+    /// Adds `samples` rays a pixel to a picture. Returns false if it was cancelled, and leaves the picture as it was.
     pub fn refine(&self, film: &mut Film, camera: &Camera, samples: u32, progress: &dyn Progress) -> bool {
         film.refine(camera, samples, self.settings.seed, progress, |ray, sampler| self.seen(ray, sampler))
     }
 
-    /// Radiance along a ray from the eye, through mirrors; none from the open.
+    /// Radiance along a camera ray, through mirrors. `None` if the ray leaves the scene.
     fn seen(&self, ray: Ray, sampler: &mut Sampler) -> Option<Vec3> {
         let mut radiance = Vec3::ZERO;
         let prepare = |surface: &mut Surface| self.simplify(surface);
-        let num_met = follow(&self.rays, ray, sampler, prepare, |surface, trail, sampler| {
-            let emission_share = if self.traces_lights() { trail.emission_share } else { 1.0 };
-            radiance += trail.throughput * (surface.emission * emission_share + self.reflected(surface, sampler));
+        let num_met = follow(&self.rays, ray, sampler, prepare, |surface, chain, sampler| {
+            let emission_share = if self.traces_lights() { chain.emission_share } else { 1.0 };
+            radiance += chain.throughput * (surface.emission * emission_share + self.reflected(surface, sampler));
         });
         (num_met > 0).then_some(radiance)
     }
 
-    /// Lights are aimed at.
+    /// Direct light is traced, and not taken from the bake.
     fn traces_lights(&self) -> bool {
         self.settings.ambient != Ambient::All
     }
 
-    /// Whitted's metal is a mirror or nothing.
+    /// With constant ambient light, as in Whitted 1980, metal is a perfect mirror or not specular at all.
     fn simplify(&self, surface: &mut Surface) {
         if matches!(self.settings.ambient, Ambient::Constant(_)) {
             surface.specular.take_if(|specular| !specular.is_perfect());
         }
     }
 
-    /// Light of the lights and of the surroundings that a surface reflects towards the viewer, but for what its mirror
-    /// shows.
+    /// Radiance towards the viewer of direct and ambient light, without mirror images.
     fn reflected(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
         let per_irradiance = surface.reflectance * FRAC_1_PI;
         match self.settings.ambient {
@@ -121,8 +124,8 @@ impl<'a> SecondPass<'a> {
         }
     }
 
-    /// Indirect radiance from one direction of the hemisphere, as likely as its cosine: what the surface in it reflects of
-    /// the stored light. Lamps are direct light, and what mirrors throw of them is stored.
+    /// Indirect radiance from one cosine-distributed direction of the hemisphere: what the surface there reflects of the
+    /// stored light. Emission does not count, because lamps are direct light.
     fn gathered(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
         if surface.reflectance == Vec3::ZERO {
             return Vec3::ZERO;
@@ -131,15 +134,15 @@ impl<'a> SecondPass<'a> {
         if direction.dot(surface.geometric) <= 0.0 {
             return Vec3::ZERO;
         }
-        let ray = self.rays.onward(surface, direction, Chance::Only);
+        let ray = self.rays.onward(surface, direction, RaySource::Unshared);
         let mut radiance = Vec3::ZERO;
         follow(
             &self.rays,
             ray,
             sampler,
             |_| {},
-            |met, trail, _| {
-                radiance += trail.throughput * met.reflectance * FRAC_1_PI * self.stored.total(met);
+            |met, chain, _| {
+                radiance += chain.throughput * met.reflectance * FRAC_1_PI * self.stored.total(met);
             },
         );
         radiance

@@ -98,13 +98,7 @@ pub struct SurfacePoint {
 }
 
 impl Material {
-    /// A matt material of the given linear reflectance.
-    #[must_use]
-    pub fn diffuse(reflectance: Vec3) -> Self {
-        Self { base_colour: reflectance.extend(1.0), metallic: 0.0, ..Self::default() }
-    }
-
-    /// Whether the material emits light.
+    /// Something is emitted.
     #[must_use]
     pub fn is_emissive(&self) -> bool {
         self.emission.max_element() > 0.0

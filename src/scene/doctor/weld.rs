@@ -1,10 +1,10 @@
-//! Triangles whose corners at exactly equal positions are one vertex, whatever their normals and texture coordinates.
+//! Triangles as their shape has them: corners at exactly equal positions are one vertex.
 
 use glam::Vec3;
 
 use crate::scene::Scene;
 
-/// Welded front triangles of a scene; backs that a bake wrote are left out.
+/// Welded front triangles of a scene; the backs that a bake writes out are skipped.
 pub(super) struct Welded {
     /// Positions `[w]`, metres.
     pub positions: Vec<Vec3>,

@@ -120,7 +120,11 @@ mod tests {
     fn scene_with_points(intensities: &[f32]) -> Scene {
         let light = |&candela: &f32| Light {
             name: format!("lamp {candela}"),
-            ..Light::point(Vec3::ZERO, Vec3::splat(candela))
+            kind: LightKind::Point { position: Vec3::ZERO },
+            intensity: Vec3::splat(candela),
+            range: None,
+            profile: None,
+            group: GroupId(0),
         };
         Scene { lights: intensities.iter().map(light).collect(), ..Scene::default() }
     }

@@ -1,0 +1,6 @@
+//! The lights of a scene as rays sample them.
+
+pub(crate) mod beams;
+pub(crate) mod light_bounds;
+pub(crate) mod light_tree;
+pub(crate) mod lights;

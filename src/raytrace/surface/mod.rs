@@ -1,0 +1,5 @@
+//! Surfaces that rays meet: diffuse and specular scattering, normal maps.
+
+pub(crate) mod hit;
+pub(crate) mod normal_map;
+pub(crate) mod specular;
