@@ -7,16 +7,16 @@ use std::path::PathBuf;
 use std::process::Command;
 use std::time::Instant;
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::Vec3;
 use hemicube::bake::{BakeSettings, Forecast, Quality, bake};
-use hemicube::base::ids::{GroupId, InstanceId, MaterialId};
+use hemicube::base::ids::{InstanceId, MaterialId};
 use hemicube::base::progress::Unwatched;
 use hemicube::form_factor::hemicube::Hemicubes;
 use hemicube::form_factor::{FormFactors, Viewpoint};
 use hemicube::gpu::Gpu;
 use hemicube::patch::PatchMesh;
 use hemicube::radiosity::sites::Sites;
-use hemicube::scene::{Instance, Light, LightKind, Material, Scene, Triangle, Vertex, gltf};
+use hemicube::scene::{Instance, Light, Material, Scene, Triangle, Vertex, gltf};
 
 /// Hemicubes timed a run, and their width.
 const COUNT: usize = 256;
@@ -88,7 +88,7 @@ fn tell_memory(scene: &Scene) -> anyhow::Result<()> {
 /// A hall with rows of balls: 200,000 triangles in 200 instances.
 fn generated() -> Scene {
     let mut scene = Scene { name: "generated".to_owned(), light_groups: vec!["lamp".to_owned()], ..Scene::default() };
-    let material = Material { base_colour: Vec4::new(0.7, 0.7, 0.7, 1.0), metallic: 0.0, ..Material::default() };
+    let material = Material::diffuse(Vec3::splat(0.7));
     scene.materials.push(material);
     // The hall is a ball turned inside out.
     ball(&mut scene, Vec3::new(10.0, 4.0, 5.0), -40.0, 16);
@@ -96,14 +96,9 @@ fn generated() -> Scene {
         let place = Vec3::new((i % 20) as f32, 0.0, (i / 20) as f32);
         ball(&mut scene, place, 0.4, 16);
     }
-    scene.lights.push(Light {
-        name: "lamp".to_owned(),
-        kind: LightKind::Point { position: Vec3::new(10.0, 6.0, 5.0) },
-        intensity: Vec3::splat(5000.0),
-        range: None,
-        profile: None,
-        group: GroupId(0),
-    });
+    scene
+        .lights
+        .push(Light { name: "lamp".to_owned(), ..Light::point(Vec3::new(10.0, 6.0, 5.0), Vec3::splat(5000.0)) });
     scene
 }
 
@@ -118,7 +113,7 @@ fn ball(scene: &mut Scene, centre: Vec3, radius: f32, n: u32) {
             let out = Vec3::new(polar.sin() * azimuth.sin(), polar.cos(), polar.sin() * azimuth.cos());
             let normal = out * radius.signum();
             let position = centre + out * radius.abs();
-            scene.vertices.push(Vertex { position, normal, uv: [Vec2::ZERO; 2], colour: Vec4::ONE });
+            scene.vertices.push(Vertex::new(position, normal));
         }
     }
     let instance = InstanceId::new(scene.instances.len());

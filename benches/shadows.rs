@@ -15,11 +15,10 @@ use std::time::Instant;
 
 use glam::Vec3;
 use hemicube::baked::{BakedScene, VertexLight};
-use hemicube::base::ids::GroupId;
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{Exposure, RenderSettings, Renderer, ShadowScene, ShadowSettings, ShadowTechnique, View};
-use hemicube::scene::{Camera, Light, LightKind, Scene, builtin, gltf};
+use hemicube::scene::{Camera, Light, Scene, builtin, gltf};
 
 const SIZE: [u32; 2] = [1280, 720];
 /// Frames of which the best counts.
@@ -78,11 +77,8 @@ fn bench(gpu: &Gpu, scene: Scene) {
 fn with_one_spot(mut scene: Scene) -> Scene {
     let bounds = scene.bounds();
     let position = bounds.centre().with_y(bounds.high.y - 0.02 * bounds.size().y);
-    let kind =
-        LightKind::Spot { position, direction: Vec3::NEG_Y, inner_angle: 0.8 * FRAC_PI_3, outer_angle: FRAC_PI_3 };
     let intensity = Vec3::splat(bounds.size().length_squared());
-    scene.lights =
-        vec![Light { name: "spot".to_owned(), kind, intensity, range: None, group: GroupId(0), profile: None }];
+    scene.lights = vec![Light::spot(position, Vec3::NEG_Y, [0.8 * FRAC_PI_3, FRAC_PI_3], intensity)];
     scene.light_groups = vec!["spot".to_owned()];
     for material in &mut scene.materials {
         (material.emission, material.group) = (Vec3::ZERO, None);

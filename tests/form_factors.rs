@@ -8,11 +8,11 @@ use hemicube::form_factor::polygon::Polygon;
 use hemicube::form_factor::{Entry, FormFactors, Row, Viewpoint, map_rows};
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::sites::Sites;
-use hemicube::scene::{Scene, builtin};
+use hemicube::scene::{Scene, SceneBuilder, builtin};
 use hemicube::trace::Tracer;
 
 use crate::support::device::gpu;
-use crate::support::scenes;
+use crate::support::scenes::{self, glowing, with_groups};
 
 /// A room, cut, and a viewpoint on each of its patches.
 fn room(seed: u32) -> (Scene, PatchMesh, Vec<Viewpoint>) {
@@ -169,11 +169,11 @@ fn patches_see_each_other_in_the_measure_of_their_areas() {
 
 #[test]
 fn a_half_transparent_pane_takes_half_of_the_view() {
-    let mut builder = scenes::SceneBuilder::default();
-    let pane = builder.material(Vec3::splat(0.5), Vec3::ONE);
+    let mut builder = SceneBuilder::default();
+    let pane = builder.material(glowing(Vec3::splat(0.5), Vec3::ONE));
     let quad = |z: f32| [(-9.0, -9.0), (-9.0, 9.0), (9.0, 9.0), (9.0, -9.0)].map(|(x, y)| Vec3::new(x, y, z));
     builder.quad(quad(0.1), pane);
-    let mut scene = builder.build(1);
+    let mut scene = with_groups(builder.build(), 1);
     scene.materials[0].base_colour.w = 0.5;
     scene.materials[0].alpha_mode = hemicube::scene::AlphaMode::Blend;
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 99.0, patch_size: 99.0 }).unwrap();

@@ -7,10 +7,10 @@ use hemicube::form_factor::{Viewpoint, map_rows};
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::Field;
 use hemicube::radiosity::gather::{GatherSettings, Gatherer};
-use hemicube::scene::Scene;
+use hemicube::scene::{Scene, SceneBuilder};
 use hemicube::trace::Tracer;
 
-use crate::support::scenes::SceneBuilder;
+use crate::support::scenes::{glowing, with_groups};
 
 const WALL: f32 = 4.0;
 const SHEET: f32 = 3.96;
@@ -18,11 +18,11 @@ const SHEET: f32 = 3.96;
 /// A room with a single-sided sheet, such as a mirror, close before its wall at x = 4.
 fn room_with_a_sheet() -> Scene {
     let mut builder = SceneBuilder::default();
-    let grey = builder.material(Vec3::splat(0.5), Vec3::ZERO);
+    let grey = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));
     builder.room(Vec3::ZERO, Vec3::new(WALL, 3.0, 4.0), [grey; 6]);
     let corner = |y: f32, z: f32| Vec3::new(SHEET, y, z);
     builder.quad([corner(0.4, 0.8), corner(0.4, 3.2), corner(2.4, 3.2), corner(2.4, 0.8)], grey);
-    builder.build(1)
+    with_groups(builder.build(), 1)
 }
 
 /// Sites all over the wall and, where it hides it, the sheet.

@@ -10,11 +10,11 @@ use hemicube::form_factor::analytic::point_to_polygon;
 use hemicube::raytrace::{
     Ambient, Film, MeasuringPoint, PathSettings, TwoPassSettings, irradiance, path_traced, two_pass,
 };
-use hemicube::scene::{Camera, Light, LightKind, Material, Scene};
+use hemicube::scene::{Camera, Light, Material, Scene, SceneBuilder};
 use hemicube::trace::Tracer;
 
 use crate::support::quads::{Quads, paint, slot, square_camera, texture};
-use crate::support::scenes::SceneBuilder;
+use crate::support::scenes::{glowing, with_groups};
 
 /// Mean radiance of a picture.
 fn mean(film: &Film) -> Vec3 {
@@ -103,9 +103,9 @@ fn a_small_lamp_shines_in_rough_metal_without_grain() {
 #[test]
 fn a_lamp_behind_a_pane_lights_through_it() {
     let mut builder = SceneBuilder::default();
-    let floor = builder.material(Vec3::splat(0.5), Vec3::ZERO);
-    let lamp = builder.material(Vec3::ZERO, Vec3::splat(8.0));
-    let pane = builder.material(Vec3::ONE, Vec3::ZERO);
+    let floor = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));
+    let lamp = builder.material(glowing(Vec3::ZERO, Vec3::splat(8.0)));
+    let pane = builder.material(glowing(Vec3::ONE, Vec3::ZERO));
     let flat = |half: f32, y: f32| {
         [(-1.0, -1.0), (-1.0, 1.0), (1.0, 1.0), (1.0, -1.0)].map(|(x, z)| Vec3::new(half * x, y, half * z))
     };
@@ -114,7 +114,7 @@ fn a_lamp_behind_a_pane_lights_through_it() {
     builder.quad(flat(3.0, 0.0), floor);
     builder.quad(flat(3.0, 1.0), pane);
     builder.quad(down, lamp);
-    let mut scene = builder.build(1);
+    let mut scene = with_groups(builder.build(), 1);
     scene.materials[2] = Material { transmission: 1.0, ior: 1.5, ..paint(Vec3::splat(0.5)) };
     let point = MeasuringPoint { position: Vec3::ZERO, normal: Vec3::Y };
     let settings = PathSettings { samples: 1 << 14, ..PathSettings::default() };
@@ -123,10 +123,8 @@ fn a_lamp_behind_a_pane_lights_through_it() {
     let exact = 8.0 * 0.96 * 0.5 * point_to_polygon(Vec3::ZERO, Vec3::Y, &down);
     assert!((found.direct.x / exact - 1.0).abs() < 0.01, "{found:?} for {exact}");
     let position = Vec3::new(0.1, 2.0, 0.05);
-    let kind = LightKind::Point { position };
-    let intensity = Vec3::splat(3.0);
     scene.materials[1].emission = Vec3::ZERO;
-    scene.lights.push(Light { name: String::new(), kind, intensity, range: None, profile: None, group: GroupId(0) });
+    scene.lights.push(Light::point(position, Vec3::splat(3.0)));
     scene.triangles.retain(|triangle| triangle.material.index() != 1);
     let found = irradiance(&Tracer::new(&scene), &[point], &settings, &Unwatched).expect("nobody cancels")[0];
     let exact = 3.0 * 0.96 * 0.5 * position.y / position.length().powi(3);
@@ -136,16 +134,16 @@ fn a_lamp_behind_a_pane_lights_through_it() {
 /// A closed room with a lamp, one wall of which is a mirror and one half of whose floor lies under a pane.
 fn room_with_a_mirror() -> Scene {
     let mut builder = SceneBuilder::default();
-    let white = builder.material(Vec3::new(0.7, 0.6, 0.5), Vec3::ZERO);
-    let mirror = builder.material(Vec3::ONE, Vec3::ZERO);
-    let lamp = builder.material(Vec3::splat(0.5), Vec3::splat(20.0));
-    let pane = builder.material(Vec3::ONE, Vec3::ZERO);
+    let white = builder.material(glowing(Vec3::new(0.7, 0.6, 0.5), Vec3::ZERO));
+    let mirror = builder.material(glowing(Vec3::ONE, Vec3::ZERO));
+    let lamp = builder.material(glowing(Vec3::splat(0.5), Vec3::splat(20.0)));
+    let pane = builder.material(glowing(Vec3::ONE, Vec3::ZERO));
     builder.room(Vec3::ZERO, Vec3::splat(2.0), [white, white, mirror, white, white, white]);
     let under_ceiling = |x: f32, z: f32| Vec3::new(x, 1.9, z);
     builder.quad([(1.2, 0.7), (1.7, 0.7), (1.7, 1.2), (1.2, 1.2)].map(|(x, z)| under_ceiling(x, z)), lamp);
     let above_floor = |x: f32, z: f32| Vec3::new(x, 0.5, z);
     builder.quad([(0.0, 0.0), (0.0, 1.0), (2.0, 1.0), (2.0, 0.0)].map(|(x, z)| above_floor(x, z)), pane);
-    let mut scene = builder.build(1);
+    let mut scene = with_groups(builder.build(), 1);
     scene.materials[1] = silver();
     scene.materials[3] = Material { transmission: 1.0, ..paint(Vec3::new(0.5, 0.9, 0.7)) };
     scene
@@ -176,16 +174,7 @@ fn a_normal_map_turns_the_surface_to_the_light() {
         let relief = Material { normal_texture: Some((slot(0), 1.0)), ..paint(Vec3::splat(0.5)) };
         let mut quads = Quads::square(relief, Vec3::ZERO);
         quads.baked.scene.textures.push(texture(1, &[texel]));
-        let kind = LightKind::Directional { direction: -lean };
-        let sun = Light {
-            name: String::new(),
-            kind,
-            intensity: Vec3::splat(PI),
-            range: None,
-            profile: None,
-            group: GroupId(0),
-        };
-        quads.baked.scene.lights.push(sun);
+        quads.baked.scene.lights.push(Light::directional(-lean, Vec3::splat(PI)));
         // A surface that faces the sun shows its reflectance.
         let found = second_pass(&quads, Ambient::None);
         assert!((found.x - 0.5).abs() < 0.003, "{lean}: {found}");

@@ -10,10 +10,10 @@ use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::Field;
 use hemicube::radiosity::gather::{GatherSettings, Gatherer};
 use hemicube::radiosity::noise::{Noise, irradiance_and_variance};
-use hemicube::scene::Scene;
+use hemicube::scene::{Light, Scene, SceneBuilder};
 use hemicube::trace::Tracer;
 
-use crate::support::scenes;
+use crate::support::scenes::{self, glowing, with_groups};
 
 const NUM_RAYS: u32 = 256;
 
@@ -92,12 +92,12 @@ fn the_places_round_it_decide_how_often_a_place_is_looked_from() {
 
 #[test]
 fn a_lamp_too_bright_and_too_near_for_its_noise_to_be_a_number_is_looked_at_all_the_same() {
-    let mut builder = scenes::SceneBuilder::default();
-    let white = builder.material(Vec3::splat(0.7), Vec3::ZERO);
+    let mut builder = SceneBuilder::default();
+    let white = builder.material(glowing(Vec3::splat(0.7), Vec3::ZERO));
     builder.room(Vec3::ZERO, Vec3::new(3.0, 2.0, 2.5), [white; 6]);
-    builder.point_light(Vec3::new(1.0, 1e-4, 1.0), Vec3::splat(1e15), 0);
+    builder.light(Light::point(Vec3::new(1.0, 1e-4, 1.0), Vec3::splat(1e15)));
     let settings = BakeSettings { element_size: Some(0.4), ..BakeSettings::preset(Quality::Draft) };
-    let baked = bake(None, &builder.build(1), &settings, &Unwatched).unwrap().baked;
+    let baked = bake(None, &with_groups(builder.build(), 1), &settings, &Unwatched).unwrap().baked;
     assert!(baked.light.groups[0].indirect.iter().all(|light| light.is_finite() && light.min_element() >= 0.0));
     // The variance of one look is beyond all numbers.
     let site = Viewpoint { position: Vec3::ZERO, normal: Vec3::Y, seed: 0 };

@@ -3,17 +3,17 @@
 use glam::Vec3;
 use hemicube::bake::{BakeSettings, Method, Quality, Solver, bake};
 use hemicube::base::colour::luminance;
-use hemicube::base::ids::ElementId;
+use hemicube::base::ids::{ElementId, GroupId};
 use hemicube::base::progress::Unwatched;
 use hemicube::form_factor::{Entry, Row};
 use hemicube::gpu::Gpu;
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::Field;
 use hemicube::radiosity::contacts::Contacts;
-use hemicube::scene::builtin;
+use hemicube::scene::{Light, SceneBuilder, builtin};
 
 use crate::support::device::gpu;
-use crate::support::scenes;
+use crate::support::scenes::{self, glowing, with_groups};
 
 /// Worst relative deviation from the exact answer over all vertices, and the imbalance of the energy account.
 fn furnace_errors(gpu: Option<&Gpu>, method: Method) -> (f32, f64) {
@@ -51,13 +51,13 @@ fn hemispheres_bake_a_furnace_without_a_device() {
 
 /// Two point lights in two groups, one twice as bright as when it burns alone in the other scene.
 fn lamp_room(intensities: [f32; 2]) -> hemicube::scene::Scene {
-    let mut builder = scenes::SceneBuilder::default();
-    let white = builder.material(Vec3::splat(0.7), Vec3::ZERO);
-    let red = builder.material(Vec3::new(0.6, 0.1, 0.1), Vec3::ZERO);
+    let mut builder = SceneBuilder::default();
+    let white = builder.material(glowing(Vec3::splat(0.7), Vec3::ZERO));
+    let red = builder.material(glowing(Vec3::new(0.6, 0.1, 0.1), Vec3::ZERO));
     builder.room(Vec3::ZERO, Vec3::new(3.0, 2.0, 2.5), [white, white, red, white, white, white]);
-    builder.point_light(Vec3::new(1.0, 1.5, 1.0), Vec3::splat(intensities[0]), 0);
-    builder.point_light(Vec3::new(2.2, 1.7, 1.8), Vec3::splat(intensities[1]), 1);
-    builder.build(2)
+    builder.light(Light::point(Vec3::new(1.0, 1.5, 1.0), Vec3::splat(intensities[0])));
+    builder.light(Light { group: GroupId(1), ..Light::point(Vec3::new(2.2, 1.7, 1.8), Vec3::splat(intensities[1])) });
+    with_groups(builder.build(), 2)
 }
 
 #[test]

@@ -11,12 +11,12 @@ use hemicube::form_factor::analytic::point_to_polygon;
 use hemicube::raytrace::{
     Ambient, Film, Irradiance, MeasuringPoint, PathSettings, TwoPassSettings, irradiance, path_traced, two_pass,
 };
-use hemicube::scene::{AlphaMode, Camera, Material, Scene};
+use hemicube::scene::{AlphaMode, Camera, Light, Material, Scene, SceneBuilder};
 use hemicube::trace::Tracer;
 
 use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, slot, square_camera, texture};
-use crate::support::scenes::{self, SceneBuilder};
+use crate::support::scenes::{self, glowing, with_groups};
 
 fn measure(scene: &Scene, position: Vec3, normal: Vec3, settings: &PathSettings) -> Irradiance {
     let point = MeasuringPoint { position, normal };
@@ -71,13 +71,13 @@ fn in_a_furnace_every_bounce_adds_its_share() {
 /// A lamp on the ceiling, facing down, and a floor beside nothing else.
 fn lamp_over(floor_reflectance: f32) -> (Scene, [Vec3; 4]) {
     let mut builder = SceneBuilder::default();
-    let lamp = builder.material(Vec3::ZERO, Vec3::new(4.0, 2.0, 1.0));
+    let lamp = builder.material(glowing(Vec3::ZERO, Vec3::new(4.0, 2.0, 1.0)));
     let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 0.5), (0.0, 0.5)].map(|(x, z)| Vec3::new(x, 1.0, z));
     builder.quad(corners, lamp);
-    let floor = builder.material(Vec3::splat(floor_reflectance), Vec3::ZERO);
+    let floor = builder.material(glowing(Vec3::splat(floor_reflectance), Vec3::ZERO));
     let at = |x: f32, z: f32| Vec3::new(x, 0.0, z);
     builder.quad([at(-1.0, -1.0), at(-1.0, 2.0), at(2.0, 2.0), at(2.0, -1.0)], floor);
-    (builder.build(1), corners)
+    (with_groups(builder.build(), 1), corners)
 }
 
 #[test]
@@ -96,12 +96,12 @@ fn a_lamp_lights_a_point_as_its_form_factor_says_and_its_back_lights_nothing() {
 #[test]
 fn one_bounce_off_a_point_of_light_is_a_sum_over_the_floor() {
     let mut builder = SceneBuilder::default();
-    let floor = builder.material(Vec3::splat(0.5), Vec3::ZERO);
+    let floor = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));
     let at = |x: f32, z: f32| Vec3::new(x, 0.0, z);
     builder.quad([at(-1.0, -1.0), at(-1.0, 1.0), at(1.0, 1.0), at(1.0, -1.0)], floor);
     let (lamp, intensity) = (Vec3::new(0.3, 0.8, 0.1), 100.0);
-    builder.point_light(lamp, Vec3::splat(intensity), 0);
-    let scene = builder.build(1);
+    builder.light(Light::point(lamp, Vec3::splat(intensity)));
+    let scene = with_groups(builder.build(), 1);
     let eye = Vec3::new(-0.2, 1.0, 0.0);
     let found = measure(&scene, eye, Vec3::NEG_Y, &PathSettings { samples: 4096, ..PathSettings::default() });
     // The integral over the floor by the midpoint rule.
@@ -123,12 +123,12 @@ fn one_bounce_off_a_point_of_light_is_a_sum_over_the_floor() {
 #[test]
 fn what_a_point_of_light_throws_on_a_ceiling_beside_it_is_found_by_few_paths() {
     let mut builder = SceneBuilder::default();
-    let ceiling = builder.material(Vec3::splat(0.5), Vec3::ZERO);
+    let ceiling = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));
     let at = |x: f32, z: f32| Vec3::new(x, 0.0, z);
     builder.quad([at(-1.0, -1.0), at(-1.0, 1.0), at(1.0, 1.0), at(1.0, -1.0)], ceiling);
     let (height, intensity) = (0.01, 100.0);
-    builder.point_light(Vec3::new(0.3, height, 0.1), Vec3::splat(intensity), 0);
-    let scene = builder.build(1);
+    builder.light(Light::point(Vec3::new(0.3, height, 0.1), Vec3::splat(intensity)));
+    let scene = with_groups(builder.build(), 1);
     let eye = Vec3::new(0.3, 1.5, 0.1);
     let found = measure(&scene, eye, Vec3::NEG_Y, &PathSettings { samples: 1024, ..PathSettings::default() });
     // Half of the light falls on the ceiling: the integral over equal parts of it by the midpoint rule.
@@ -252,13 +252,13 @@ fn the_second_pass_adds_its_ambient_light_to_the_lamps() {
 /// A room with a lamp under its ceiling.
 fn lamp_room() -> Scene {
     let mut builder = SceneBuilder::default();
-    let white = builder.material(Vec3::splat(0.7), Vec3::ZERO);
-    let red = builder.material(Vec3::new(0.6, 0.1, 0.1), Vec3::ZERO);
+    let white = builder.material(glowing(Vec3::splat(0.7), Vec3::ZERO));
+    let red = builder.material(glowing(Vec3::new(0.6, 0.1, 0.1), Vec3::ZERO));
     builder.room(Vec3::ZERO, Vec3::new(3.0, 2.0, 2.5), [white, white, red, white, white, white]);
-    let lamp = builder.material(Vec3::ZERO, Vec3::splat(50.0));
+    let lamp = builder.material(glowing(Vec3::ZERO, Vec3::splat(50.0)));
     let under_ceiling = |x: f32, z: f32| Vec3::new(x, 1.95, z);
     builder.quad([(1.0, 1.0), (2.0, 1.0), (2.0, 1.5), (1.0, 1.5)].map(|(x, z)| under_ceiling(x, z)), lamp);
-    builder.build(1)
+    with_groups(builder.build(), 1)
 }
 
 /// Stored irradiance over what paths find, summed over vertices away from the edges of [`lamp_room`].

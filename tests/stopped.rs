@@ -7,9 +7,9 @@ use glam::{Quat, Vec3};
 use hemicube::bake::{Bake, BakeSettings, Method, Quality, Watch, bake, bake_with_rows};
 use hemicube::base::progress::{Progress, Stage, Unwatched};
 use hemicube::form_factor::row_cache::{RowCache, RowCacheError};
-use hemicube::scene::{Scene, builtin};
+use hemicube::scene::{Light, Scene, SceneBuilder, builtin};
 
-use crate::support::scenes::SceneBuilder;
+use crate::support::scenes::{glowing, with_groups};
 
 /// Cancels the bake when it tells of a stage for the `moment`-th time.
 struct StopAt {
@@ -65,11 +65,11 @@ fn open(path: &Path) -> RowCache {
 /// A point light throws a hard shadow of a block on the floor: elements are halved to the last.
 fn sharp_room() -> Scene {
     let mut builder = SceneBuilder::default();
-    let white = builder.material(Vec3::splat(0.7), Vec3::ZERO);
+    let white = builder.material(glowing(Vec3::splat(0.7), Vec3::ZERO));
     builder.room(Vec3::ZERO, Vec3::new(3.0, 2.0, 2.5), [white; 6]);
     builder.block(Vec3::new(1.5, 0.8, 1.2), Vec3::splat(0.3), Quat::from_rotation_y(0.5), white);
-    builder.point_light(Vec3::new(1.0, 1.7, 1.0), Vec3::splat(100.0), 0);
-    builder.build(1)
+    builder.light(Light::point(Vec3::new(1.0, 1.7, 1.0), Vec3::splat(100.0)));
+    with_groups(builder.build(), 1)
 }
 
 #[test]

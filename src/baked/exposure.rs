@@ -59,34 +59,19 @@ fn luminance_and_area(baked: &BakedScene, t: usize) -> (f32, f32) {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec2, Vec4};
-
     use super::*;
     use crate::baked::{GroupLight, VertexLight};
-    use crate::base::ids::{InstanceId, MaterialId};
-    use crate::scene::{Material, Scene, Triangle, Vertex};
+    use crate::scene::{Material, SceneBuilder};
 
     /// Equal triangles of white paint that show these luminances.
     fn showing(luminances: &[f32]) -> BakedScene {
-        let corner = |c: usize| Vertex {
-            position: [Vec3::ZERO, Vec3::X, Vec3::Y][c],
-            normal: Vec3::Z,
-            uv: [Vec2::ZERO; 2],
-            colour: Vec4::ONE,
-        };
         let direct = luminances.iter().flat_map(|&luminance| [Vec3::splat(luminance * PI); 3]).collect::<Vec<_>>();
-        let triangle = |t: usize| Triangle {
-            vertices: [0, 1, 2].map(|c| (3 * t + c) as u32),
-            material: MaterialId(0),
-            instance: InstanceId(0),
-            is_back_side: false,
-        };
-        let scene = Scene {
-            vertices: (0..direct.len()).map(|v| corner(v % 3)).collect(),
-            triangles: (0..luminances.len()).map(triangle).collect(),
-            materials: vec![Material::default()],
-            ..Scene::default()
-        };
+        let mut builder = SceneBuilder::default();
+        let metal = builder.material(Material::default());
+        for _ in luminances {
+            builder.triangle([Vec3::ZERO, Vec3::X, Vec3::Y], metal);
+        }
+        let scene = builder.build();
         let indirect = vec![Vec3::ZERO; direct.len()];
         BakedScene { scene, light: VertexLight { groups: vec![GroupLight { direct, indirect }] } }
     }

@@ -1,6 +1,6 @@
 //! Form factor between two polygons by each of the three methods, with a third polygon that may stand between.
 
-use glam::{DVec3, Vec2, Vec3, Vec4};
+use glam::{DVec3, Vec3};
 
 use super::contour::polygon_to_polygon;
 use super::hemicube::Hemicubes;
@@ -146,7 +146,7 @@ impl Staged {
         let centre = viewer.centre();
         let reach = seen.corners().iter().chain(viewer.corners()).map(|p| p.distance(centre)).fold(0.0, f64::max);
         let stage = |polygon: &Polygon| polygon.rescaled(centre, 1.0 / reach);
-        let material = Material { metallic: 0.0, ..Material::default() };
+        let material = Material::diffuse(Vec3::ONE);
         let mut scene = Scene {
             materials: vec![material.clone(), Material { double_sided: true, ..material }],
             ..Scene::default()
@@ -198,7 +198,7 @@ fn add(scene: &mut Scene, polygon: &Polygon, material: u32) {
     let first = scene.vertices.len() as u32;
     let start = scene.triangles.len();
     let normal = polygon.normal().as_vec3();
-    let vertex = |position: Vec3| Vertex { position, normal, uv: [Vec2::ZERO; 2], colour: Vec4::ONE };
+    let vertex = |position: Vec3| Vertex::new(position, normal);
     scene.vertices.extend(polygon.corners().iter().map(|corner| vertex(corner.as_vec3())));
     scene.triangles.extend((1..polygon.corners().len() as u32 - 1).map(|k| Triangle {
         vertices: [first, first + k, first + k + 1],

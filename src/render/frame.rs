@@ -121,7 +121,7 @@ impl Renderer {
     ) {
         let (Some(settings), Some(shadows)) = (&render_settings.shadows, &self.shadows) else { return };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, render_settings);
-        let seen = &scene.in_view(gpu, &view.outlook(render_settings));
+        let seen = &scene.in_view(gpu, &view.cull_view(render_settings));
         let subject = Subject {
             frame: &frame,
             scene,
@@ -153,7 +153,7 @@ impl Renderer {
 
         // The light of the vertices, each group as bright as wanted.
         let stored = self.weighted.of(gpu, encoder, &frame, scene, render_settings).clone();
-        let seen = &scene.in_view(gpu, &view.outlook(render_settings));
+        let seen = &scene.in_view(gpu, &view.cull_view(render_settings));
         let subject = self.shadows.as_ref().map(|shadows| Subject {
             frame: &frame,
             scene,

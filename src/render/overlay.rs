@@ -11,7 +11,7 @@ use super::{RenderSettings, View};
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
 use crate::render::scene::SceneBuffers;
-use crate::render::scene::buffers::GpuVertex;
+use crate::render::scene::gpu_vertex::GpuVertex;
 use crate::render::targets::DEPTH_FORMAT;
 use crate::scene::AlphaMode;
 
@@ -109,7 +109,7 @@ impl OverlayPass {
             _ => (depth_target(gpu, size), size),
         };
         let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, settings);
-        let seen = scene.in_view(gpu, &view.outlook(settings));
+        let seen = scene.in_view(gpu, &view.cull_view(settings));
         let mut pass = begin(encoder, target, &depth.0);
         pass.set_bind_group(0, &frame, &[]);
         // What hides marks.

@@ -10,7 +10,7 @@ use super::surface_variant::Variant;
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
 use crate::render::scene::SceneBuffers;
-use crate::render::scene::buffers::Batch;
+use crate::render::scene::draw_batch::DrawBatch;
 use crate::render::scene::materials::material_layout;
 use crate::render::targets::HDR_FORMAT;
 
@@ -283,7 +283,7 @@ impl SurfacePass {
             Some(LiveLight::Few(lights)) => Some(lights.kinds),
             _ => None,
         };
-        let variant = |batch: &Batch| (Variant::new(batch, settings, targets.output), kinds);
+        let variant = |batch: &DrawBatch| (Variant::new(batch, settings, targets.output), kinds);
         if self.pipelines.len() > MOST_PIPELINES {
             self.pipelines.clear();
         }

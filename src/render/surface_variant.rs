@@ -3,7 +3,8 @@
 use super::weighted_light::WeightedLight;
 use super::{RenderSettings, Shading, ToneMap};
 use crate::gpu::Gpu;
-use crate::render::scene::buffers::{Batch, Faces, GpuVertex};
+use crate::render::scene::draw_batch::{DrawBatch, Faces};
+use crate::render::scene::gpu_vertex::GpuVertex;
 use crate::render::targets::{DEPTH_FORMAT, HDR_FORMAT, LUMINANCE_FORMAT};
 use crate::scene::AlphaMode;
 
@@ -83,7 +84,7 @@ enum Alpha {
 
 impl Variant {
     /// What a batch needs for a look.
-    pub fn new(batch: &Batch, settings: &RenderSettings, output: Output) -> Self {
+    pub fn new(batch: &DrawBatch, settings: &RenderSettings, output: Output) -> Self {
         Self {
             shading: settings.shading,
             alpha: match batch.alpha_mode {

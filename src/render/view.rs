@@ -5,7 +5,7 @@ use glam::{Mat4, Vec3, Vec4};
 
 use super::RenderSettings;
 use crate::base::bounds::Frustum;
-use crate::render::scene::view::Outlook;
+use crate::render::scene::cull_view::CullView;
 use crate::scene::{Camera, Projection};
 
 /// Near plane of a perspective view, metres; reversed depth stays exact however near it is.
@@ -50,8 +50,8 @@ impl View {
 
     /// What of a scene may be seen, as `settings` shows backs.
     #[must_use]
-    pub fn outlook(&self, settings: &RenderSettings) -> Outlook {
-        Outlook { frustum: self.frustum(), eye: self.eye(), cull_back: settings.cull_back }
+    pub fn cull_view(&self, settings: &RenderSettings) -> CullView {
+        CullView { frustum: self.frustum(), eye: self.eye(), cull_back: settings.cull_back }
     }
 
     /// Matrix from world space to clip space.

@@ -98,7 +98,13 @@ pub struct SurfacePoint {
 }
 
 impl Material {
-    /// Something is emitted.
+    /// A matt material of the given linear reflectance.
+    #[must_use]
+    pub fn diffuse(reflectance: Vec3) -> Self {
+        Self { base_colour: reflectance.extend(1.0), metallic: 0.0, ..Self::default() }
+    }
+
+    /// Whether the material emits light.
     #[must_use]
     pub fn is_emissive(&self) -> bool {
         self.emission.max_element() > 0.0

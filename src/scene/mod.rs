@@ -15,6 +15,7 @@ mod model;
 pub mod node;
 pub mod photometry;
 mod reflectance;
+mod scene_builder;
 mod texture;
 mod triangle;
 
@@ -24,5 +25,6 @@ pub use material::{AlphaMode, MAX_REFLECTANCE, Material, SurfacePoint};
 pub use model::{Instance, Scene, VertexAttribute};
 pub use node::{NamedNode, Transform};
 pub use photometry::Profile;
+pub use scene_builder::SceneBuilder;
 pub use texture::{Image, Sampler, Texture, TextureSlot, Wrap};
 pub use triangle::{Triangle, Vertex, area_of, edge_cross, is_degenerate, is_placeable, normal_of};

@@ -19,6 +19,12 @@ pub struct Vertex {
 }
 
 impl Vertex {
+    /// A white vertex without texture coordinates.
+    #[must_use]
+    pub fn new(position: Vec3, normal: Vec3) -> Self {
+        Self { position, normal, uv: [Vec2::ZERO; 2], colour: Vec4::ONE }
+    }
+
     /// Texture coordinate sets and colour at the point of a triangle with barycentric coordinates `weights`.
     #[must_use]
     pub fn uv_and_colour_at([a, b, c]: [&Self; 3], weights: Vec3) -> ([Vec2; 2], Vec4) {

@@ -159,36 +159,18 @@ fn lanes(mut bits: u32) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::ids::{InstanceId, MaterialId};
-    use crate::scene::{Instance, Material, Triangle, Vertex};
-    use glam::{Vec2, Vec4};
+    use crate::scene::{Material, SceneBuilder};
+    use glam::Vec4;
 
     /// Unit squares facing +Z at the given heights.
     fn squares(heights: &[f32], alpha_mode: AlphaMode, alpha: f32) -> Scene {
-        let mut scene = Scene::default();
         let material = Material { alpha_mode, base_colour: Vec4::new(1.0, 1.0, 1.0, alpha), ..Material::default() };
-        scene.materials.push(material);
+        let mut builder = SceneBuilder::default();
+        let material = builder.material(material);
         for &z in heights {
-            let first = scene.vertices.len() as u32;
-            for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
-                scene.vertices.push(Vertex {
-                    position: Vec3::new(x, y, z),
-                    normal: Vec3::Z,
-                    uv: [Vec2::ZERO; 2],
-                    colour: Vec4::ONE,
-                });
-            }
-            for corners in [[0, 1, 2], [0, 2, 3]] {
-                scene.triangles.push(Triangle {
-                    vertices: corners.map(|c| first + c),
-                    material: MaterialId(0),
-                    instance: InstanceId(0),
-                    is_back_side: false,
-                });
-            }
+            builder.quad([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Vec3::new(x, y, z)), material);
         }
-        scene.instances.push(Instance { name: "squares".into(), triangles: 0..scene.triangles.len() });
-        scene
+        builder.build()
     }
 
     #[test]

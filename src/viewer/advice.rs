@@ -2,7 +2,7 @@
 
 use crate::base::bounds::Bounds;
 use crate::scene::Scene;
-use crate::scene::doctor::{self, Place};
+use crate::scene::doctor::{self, Location};
 
 /// Less than this much is never framed, metres: one wants to see what is around.
 const SURROUNDINGS: f32 = 0.5;
@@ -13,7 +13,7 @@ pub struct Advice {
     /// What was found; after a semicolon what to do.
     pub text: String,
     /// Where it is; empty where it has no place.
-    pub places: Vec<Place>,
+    pub places: Vec<Location>,
 }
 
 impl Advice {
@@ -28,7 +28,7 @@ impl Advice {
     pub fn of_scene(scene: &Scene) -> Vec<Self> {
         let notes = scene.notes.iter().map(Self::new);
         let findings = doctor::examine(scene).findings.into_iter();
-        notes.chain(findings.map(|found| Self { text: found.line(), places: found.places })).collect()
+        notes.chain(findings.map(|found| Self { text: found.line(), places: found.locations })).collect()
     }
 
     /// A box round one of the places, with some of its surroundings.

@@ -6,7 +6,7 @@ use glam::Vec3;
 
 use crate::base::colour::luminance;
 use crate::base::ids::GroupId;
-use crate::scene::{Light, LightKind, Scene};
+use crate::scene::{Light, Scene};
 
 /// What the user is told.
 pub const NOTE: &str = "the file brings no light: a default sky of 10 000 lx shines on it; \
@@ -39,11 +39,11 @@ pub fn add(scene: &mut Scene) {
             let (sin, cos) = (TAU * (i as f32 + PI * height) / count as f32).sin_cos();
             scene.lights.push(Light {
                 name: "default sky".to_owned(),
-                kind: LightKind::Directional { direction: -Vec3::new(level * cos, height, level * sin) },
-                intensity: COLOUR * (ILLUMINANCE / (horizontal * luminance(COLOUR))),
-                range: None,
-                profile: None,
                 group,
+                ..Light::directional(
+                    -Vec3::new(level * cos, height, level * sin),
+                    COLOUR * (ILLUMINANCE / (horizontal * luminance(COLOUR))),
+                )
             });
         }
     }

@@ -8,7 +8,7 @@ use super::solved::Solved;
 use crate::base::ids::{InstanceId, PatchId, TriangleId};
 use crate::render::{Mark, turbo};
 use crate::scene::Scene;
-use crate::scene::doctor::Place;
+use crate::scene::doctor::Location;
 
 /// Which wire is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
@@ -91,7 +91,7 @@ impl Marks {
     }
 
     /// Marks places that advice is about; points as small crosses.
-    pub fn found(&mut self, places: &[Place]) {
+    pub fn found(&mut self, places: &[Location]) {
         for &[a, b] in places.iter().flat_map(|place| &place.lines) {
             if a == b {
                 let arms = Vec3::AXES.map(|axis| POINT_SIZE * axis);

@@ -175,28 +175,16 @@ fn scale_of(bounds: Bounds) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec2, Vec4};
-
     use super::*;
-    use crate::base::ids::{InstanceId, MaterialId};
-    use crate::scene::{Scene, Triangle, Vertex};
+    use crate::scene::{Material, SceneBuilder};
 
     /// A square floor of this width at height 0.
     fn floor(width: f32) -> Collider {
         let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)];
-        let vertex = |(x, z): (f32, f32)| Vertex {
-            position: Vec3::new(x, 0.0, z) * width,
-            normal: Vec3::Y,
-            uv: [Vec2::ZERO; 2],
-            colour: Vec4::ONE,
-        };
-        let triangle =
-            |vertices| Triangle { vertices, material: MaterialId(0), instance: InstanceId(0), is_back_side: false };
-        Collider::new(&Scene {
-            vertices: corners.map(vertex).to_vec(),
-            triangles: vec![triangle([0, 1, 2]), triangle([0, 2, 3])],
-            ..Scene::default()
-        })
+        let mut builder = SceneBuilder::default();
+        let grey = builder.material(Material::diffuse(Vec3::splat(0.5)));
+        builder.quad(corners.map(|(x, z)| Vec3::new(x, 0.0, z) * width), grey);
+        Collider::new(&builder.build())
     }
 
     fn at_height(y: f32) -> Eye {

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use glam::{Mat4, Vec3, Vec4};
 use hemicube::baked::{BakedScene, VertexLight};
-use hemicube::base::ids::{GroupId, InstanceId, MaterialId};
+use hemicube::base::ids::{InstanceId, MaterialId};
 use hemicube::gpu::Gpu;
 use hemicube::render::picture_in_light;
 use hemicube::render::scene::SceneBuffers;
@@ -38,8 +38,7 @@ impl Stage {
 
     pub fn light(&mut self, kind: LightKind) -> &mut Self {
         let intensity = Vec3::splat(30.0);
-        self.scene.lights =
-            vec![Light { name: String::new(), kind, intensity, range: None, profile: None, group: GroupId(0) }];
+        self.scene.lights = vec![Light::new(kind, intensity)];
         self
     }
 
@@ -219,7 +218,7 @@ impl Shot {
 }
 
 pub fn paint() -> Material {
-    Material { base_colour: Vec4::new(0.5, 0.5, 0.5, 1.0), metallic: 0.0, ..Material::default() }
+    Material::diffuse(Vec3::splat(0.5))
 }
 
 pub fn settings(technique: ShadowTechnique) -> ShadowSettings {

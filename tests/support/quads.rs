@@ -9,7 +9,7 @@ use hemicube::scene::{Camera, Image, Material, Projection, Sampler, Texture, Tex
 
 /// A diffuse material.
 pub fn paint(colour: Vec3) -> Material {
-    Material { base_colour: colour.extend(1.0), metallic: 0.0, ..Material::default() }
+    Material::diffuse(colour)
 }
 
 /// A texture slot on coordinate set 0 as it is.

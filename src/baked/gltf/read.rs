@@ -47,10 +47,10 @@ fn place(name: &str) -> Option<(Part, usize)> {
 mod tests {
     use super::*;
     use crate::scene::Vertex;
-    use glam::{Vec2, Vec3, Vec4};
+    use glam::Vec3;
 
     fn scene_with(attributes: &[(&str, f32)]) -> Scene {
-        let vertex = Vertex { position: Vec3::ZERO, normal: Vec3::Y, uv: [Vec2::ZERO; 2], colour: Vec4::ONE };
+        let vertex = Vertex::new(Vec3::ZERO, Vec3::Y);
         let attribute =
             |&(name, value): &(&str, f32)| VertexAttribute { name: name.to_owned(), values: vec![Vec3::splat(value)] };
         Scene {

@@ -65,11 +65,9 @@ fn materials() -> Vec<Material> {
 fn lights() -> Vec<Light> {
     let light = |name: &str, group, kind, range| Light {
         name: name.into(),
-        kind,
-        intensity: Vec3::new(40.0, 20.0, 10.0),
         range,
-        profile: None,
         group: GroupId(group),
+        ..Light::new(kind, Vec3::new(40.0, 20.0, 10.0))
     };
     let position = Vec3::new(1.0, 2.0, 3.0);
     let direction = Vec3::new(0.6, 0.0, -0.8);

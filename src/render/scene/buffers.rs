@@ -3,29 +3,21 @@
 //! Positions, textures and materials stay as they are uploaded; only the light is written again, while a bake runs or
 //! when a lamp is dimmed by solving anew.
 
-use std::ops::Range;
-
-use bytemuck::{Pod, Zeroable};
-use glam::{Vec2, Vec3};
 use wgpu::util::DeviceExt;
 
+use super::draw_batch::{Chunk, DrawBatch};
+use super::draw_order::{DrawOrder, draw_order, index_buffer};
+use super::gpu_vertex::GpuVertex;
 use super::materials::material_bind_groups;
-use super::order::{Order, index_buffer, order};
+use super::pre_exposure::pre_exposure;
 use super::tiled_mesh::TiledMesh;
 use super::tiles::Tiles;
-use super::vertex_light::LightBuffer;
+use super::vertex_light::{LightBuffer, LightVersion};
 use super::vertex_order::VertexOrder;
-use super::view::Chunk;
 use crate::baked::coarse::CoarseMesh;
 use crate::baked::{BakedScene, VertexLight};
-use crate::base::ids::MaterialId;
 use crate::gpu::Gpu;
-use crate::scene::{AlphaMode, Scene, Vertex};
-
-/// Half floats, of which HDR textures are made, hold this and four times as much.
-const COMFORTABLE_RADIANCE: f32 = 16_384.0;
-/// Typical radiance of surfaces that leaves half floats room for light a thousand times as strong or as weak.
-const COMFORTABLE_SURFACES: std::ops::RangeInclusive<f32> = 1.0 / 1024.0..=64.0;
+use crate::scene::Scene;
 
 /// A lit scene on the device.
 pub struct SceneBuffers {
@@ -36,84 +28,14 @@ pub struct SceneBuffers {
     /// Bind groups of the materials `[m]`.
     pub materials: Vec<wgpu::BindGroup>,
     /// Triangles by material, those that blend last.
-    pub batches: Vec<Batch>,
-    /// The same surfaces in fewer triangles, where the scene is a bake.
+    pub batches: Vec<DrawBatch>,
+    /// The same surfaces in fewer triangles if the scene is a bake.
     pub tiled: Option<TiledMesh>,
     /// Power of two that brings the scene's radiance into the range of half floats.
     pub pre_exposure: f32,
     pub(super) chunks: Vec<Chunk>,
     pub(super) vertex_order: VertexOrder,
     pub(super) light: LightBuffer,
-    pub(super) num_groups: usize,
-    pub(super) num_vertices: usize,
-}
-
-/// Triangles that are drawn in one call.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Batch {
-    /// Their part of the index buffer.
-    pub indices: Range<u32>,
-    /// Their material.
-    pub material: MaterialId,
-    /// How its alpha acts.
-    pub alpha_mode: AlphaMode,
-    /// Which faces exist.
-    pub faces: Faces,
-    /// Its material has textures.
-    pub has_textures: bool,
-    /// Its material shows its base colour as it is, without light.
-    pub is_unlit: bool,
-    /// Its light is in tiles, not at its vertices.
-    pub is_tiled: bool,
-}
-
-/// Which faces of a batch's triangles are surfaces.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Faces {
-    /// The front; the back is solid but black.
-    Front,
-    /// The front, and another triangle in the same place is the back: a double-sided surface in a bake.
-    FrontOfTwins,
-    /// Both faces of one triangle: a double-sided surface that was not baked.
-    Both,
-}
-
-impl Faces {
-    /// Nothing is seen from behind, where single-sided surfaces are not if `cull_back` says so.
-    #[must_use]
-    pub fn are_culled(self, cull_back: bool) -> bool {
-        match self {
-            Faces::Front => cull_back,
-            Faces::FrontOfTwins => true,
-            Faces::Both => false,
-        }
-    }
-}
-
-/// A vertex as the vertex buffer holds it.
-#[repr(C)]
-#[derive(Clone, Copy, Default, Pod, Zeroable)]
-pub struct GpuVertex {
-    position: Vec3,
-    normal: Vec3,
-    uv: [Vec2; 2],
-    colour: [f32; 4],
-}
-
-impl GpuVertex {
-    /// Attributes of the vertex buffer: 0 position, 1 normal, 2 both coordinate sets, 3 colour.
-    pub const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
-        array_stride: size_of::<GpuVertex>() as u64,
-        step_mode: wgpu::VertexStepMode::Vertex,
-        attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Float32x3, 2 => Float32x4, 3 => Float32x4],
-    };
-}
-
-impl From<&Vertex> for GpuVertex {
-    fn from(vertex: &Vertex) -> Self {
-        let Vertex { position, normal, uv, colour } = *vertex;
-        Self { position, normal, uv, colour: colour.to_array() }
-    }
 }
 
 impl SceneBuffers {
@@ -124,9 +46,9 @@ impl SceneBuffers {
         let num_groups = scene.light_groups.len().max(baked.light.groups.len());
         let limits = gpu.device.limits();
         let coarse = || CoarseMesh::new(scene, limits.max_texture_dimension_2d);
-        let (order, coarse) = rayon::join(|| order(scene, |_| true), coarse);
+        let (order, coarse) = rayon::join(|| draw_order(scene, |_| true), coarse);
         let coarse = coarse.filter(|coarse| Tiles::can_be_bound(coarse, &limits));
-        let (Order { batches, chunks, .. }, indices) = order;
+        let (DrawOrder { batches, chunks, .. }, indices) = order;
         let vertex_order = VertexOrder::new(&indices, scene.vertices.len());
         let buffers = Self {
             vertices: vertex_buffer(gpu, scene, &vertex_order),
@@ -138,23 +60,64 @@ impl SceneBuffers {
             chunks,
             pre_exposure: pre_exposure(baked),
             light: LightBuffer::new(gpu, num_groups, scene.vertices.len()),
-            num_groups,
-            num_vertices: scene.vertices.len(),
         };
         buffers.set_light(gpu, &baked.light);
         buffers
     }
 
-    /// How many light groups the light has.
+    /// Number of light groups.
     #[must_use]
     pub fn num_groups(&self) -> usize {
-        self.num_groups
+        self.light.num_groups
     }
 
-    /// How many vertices the mesh has.
+    /// Number of vertices of the mesh.
     #[must_use]
     pub fn num_vertices(&self) -> usize {
-        self.num_vertices
+        self.light.num_vertices
+    }
+
+    /// The irradiance: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in the order of
+    /// [`Self::vertices`].
+    #[must_use]
+    pub fn irradiance(&self) -> &wgpu::Buffer {
+        &self.light.irradiance
+    }
+
+    /// The state of the light.
+    #[must_use]
+    pub fn light_version(&self) -> LightVersion {
+        self.light.version()
+    }
+
+    /// Replaces the light. The mesh stays the same; groups that `light` lacks keep theirs.
+    pub fn set_light(&self, gpu: &Gpu, light: &VertexLight) {
+        self.light.write(gpu, &self.vertex_order, light, |_| ());
+    }
+
+    /// As [`Self::set_light`], but submits part by part and calls `rest` after each: a frame of another thread waits for one
+    /// part at most.
+    pub fn set_light_in_parts(&self, gpu: &Gpu, light: &VertexLight, rest: impl Fn()) {
+        self.light.write(gpu, &self.vertex_order, light, |gpu| {
+            gpu.queue.submit([]);
+            rest();
+        });
+    }
+
+    /// Indices and batches of the coarse mesh if there is one, else of the elements.
+    #[must_use]
+    pub fn coarsest(&self) -> (&wgpu::Buffer, &[DrawBatch]) {
+        match &self.tiled {
+            Some(tiled) => (&tiled.indices, &tiled.batches),
+            None => (&self.indices, &self.batches),
+        }
+    }
+
+    /// The vertices that a batch indexes.
+    #[must_use]
+    pub fn vertices_of(&self, batch: &DrawBatch) -> &wgpu::Buffer {
+        let tiled = self.tiled.as_ref().filter(|_| batch.is_tiled);
+        tiled.map_or(&self.vertices, |tiled| &tiled.vertices)
     }
 }
 
@@ -165,58 +128,4 @@ fn vertex_buffer(gpu: &Gpu, scene: &Scene, order: &VertexOrder) -> wgpu::Buffer 
         contents: bytemuck::cast_slice(&order.sorted(&vertices)),
         usage: wgpu::BufferUsages::VERTEX,
     })
-}
-
-/// A scale that brings the brightest lamp below [`COMFORTABLE_RADIANCE`], but keeps lit surfaces within
-/// [`COMFORTABLE_SURFACES`]; 1 where both are so already.
-fn pre_exposure(baked: &BakedScene) -> f32 {
-    let lamps = baked.scene.materials.iter().map(|material| material.emission.max_element());
-    let for_lamps = (COMFORTABLE_RADIANCE / lamps.fold(0.0, f32::max)).min(1.0);
-    let typical = typical_white_radiance(&baked.light);
-    let (low, high) = (COMFORTABLE_SURFACES.start() / typical, COMFORTABLE_SURFACES.end() / typical);
-    let scale = if typical.is_normal() { for_lamps.clamp(low, high) } else { for_lamps };
-    scale.log2().floor().exp2()
-}
-
-/// Log-average of the radiance that white paint shows in one part of the light: a vertex that touches a point light is
-/// boundless, and must not count for more than another.
-fn typical_white_radiance(light: &VertexLight) -> f32 {
-    let values = light.groups.iter().flat_map(|group| group.direct.iter().chain(&group.indirect));
-    let radiances = values.map(|value| value.max_element() / std::f32::consts::PI);
-    let (mut log_sum, mut count) = (0.0, 0u32);
-    for radiance in radiances.filter(|radiance| radiance.is_finite() && *radiance > 0.0) {
-        log_sum += f64::from(radiance.log2());
-        count += 1;
-    }
-    if count == 0 { 0.0 } else { (log_sum / f64::from(count)).exp2() as f32 }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::scene::Material;
-
-    #[test]
-    fn only_very_bright_scenes_are_scaled_down_and_by_a_power_of_two() {
-        let lamp = |nit| {
-            let material = Material { emission: Vec3::splat(nit), ..Material::default() };
-            BakedScene { scene: Scene { materials: vec![material], ..Scene::default() }, ..BakedScene::default() }
-        };
-        assert_eq!(pre_exposure(&lamp(0.0)), 1.0);
-        assert_eq!(pre_exposure(&lamp(10_000.0)), 1.0);
-        assert_eq!(pre_exposure(&lamp(1.6e9)), 2f32.powi(-17));
-    }
-
-    #[test]
-    fn one_boundless_vertex_does_not_darken_the_scene() {
-        let scale_of = |strongest: f32| {
-            let mut light = VertexLight::dark(1, 1000);
-            light.groups[0].direct.fill(Vec3::ONE);
-            light.groups[0].direct[7] = Vec3::splat(strongest);
-            pre_exposure(&BakedScene { light, ..BakedScene::default() })
-        };
-        assert_eq!(scale_of(f32::INFINITY), 1.0);
-        assert_eq!(scale_of(f32::NAN), 1.0);
-        assert_eq!(scale_of(1e9), 1.0);
-    }
 }

@@ -5,11 +5,12 @@ use std::sync::Arc;
 use glam::{Vec2, Vec3, Vec4};
 use wgpu::util::DeviceExt;
 
-use super::buffers::{Batch, GpuVertex};
-use super::order::{Drawn, Order, index_buffer};
+use super::cull_view::CullView;
+use super::draw_batch::{Chunk, DrawBatch};
+use super::draw_order::{DrawOrder, MeshTriangles, index_buffer};
+use super::gpu_vertex::GpuVertex;
 use super::tiles::Tiles;
 use super::vertex_order::VertexOrder;
-use super::view::{Chunk, Outlook};
 use crate::baked::coarse::{CoarseMesh, Tile};
 use crate::base::ids::TriangleId;
 use crate::gpu::Gpu;
@@ -25,7 +26,7 @@ pub struct TiledMesh {
     /// Three u32 a triangle, batch by batch.
     pub indices: wgpu::Buffer,
     /// Triangles by material, those with tiles apart.
-    pub batches: Vec<Batch>,
+    pub batches: Vec<DrawBatch>,
     /// Their light.
     pub tiles: Arc<Tiles>,
     /// What pictures draw parts of.
@@ -88,9 +89,9 @@ impl TiledMesh {
 
     /// The triangles that may be seen, of each batch the nearest chunks first: what they hide is not shaded. Triangles that
     /// show a back which is not drawn are left out here, since software drivers transform them like all others.
-    pub(super) fn in_view(&self, gpu: &Gpu, from: &Outlook) -> Self {
+    pub(super) fn in_view(&self, gpu: &Gpu, from: &CullView) -> Self {
         let mut near: Vec<(f32, &Chunk)> =
-            self.drawing.chunks.iter().filter_map(|c| Some((from.distance(c)?, c))).collect();
+            self.drawing.chunks.iter().filter_map(|c| Some((from.distance(&c.bounds)?, c))).collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut indices: Vec<[u32; 3]> = Vec::new();
         let mut batches = Vec::new();
@@ -110,7 +111,7 @@ impl TiledMesh {
             }
             let last = 3 * indices.len() as u32;
             if last > first {
-                batches.push(Batch { indices: first..last, ..batch.clone() });
+                batches.push(DrawBatch { indices: first..last, ..batch.clone() });
             }
         }
         Self { indices: index_buffer(gpu, indices.as_flattened()), batches, ..self.clone() }
@@ -120,7 +121,7 @@ impl TiledMesh {
 /// Brings tiles into the order of drawing: their corners lie on the device as they do here.
 fn sort_tiles(coarse: &mut CoarseMesh, scene: &Scene) {
     let num_tiled = coarse.tiles.len();
-    let drawn = Drawn { triangles: &coarse.triangles, num_tiled };
+    let drawn = MeshTriangles { triangles: &coarse.triangles, num_tiled };
     let order = drawn.order(scene, |_| true).triangles;
     let tiles: Vec<usize> = order.iter().map(|id| id.index()).filter(|&tile| tile < num_tiled).collect();
     let triangles: Vec<Triangle> = tiles.iter().map(|&tile| coarse.triangles[tile]).collect();
@@ -135,9 +136,9 @@ impl Mesh {
         scene: &Scene,
         order: &VertexOrder,
         is_shown: impl Fn(&Triangle) -> bool,
-    ) -> (Vec<Batch>, Drawing) {
-        let drawn = Drawn { triangles: &self.triangles, num_tiled: self.num_tiles };
-        let Order { batches, chunks, triangles } = drawn.order(scene, is_shown);
+    ) -> (Vec<DrawBatch>, Drawing) {
+        let drawn = MeshTriangles { triangles: &self.triangles, num_tiled: self.num_tiles };
+        let DrawOrder { batches, chunks, triangles } = drawn.order(scene, is_shown);
         let vertices = |id: &TriangleId| match id.index() {
             tile if tile < self.num_tiles => [0, 1, 2].map(|corner| 3 * tile as u32 + corner),
             triangle => self.triangles[triangle].vertices.map(|v| order.place(v)),

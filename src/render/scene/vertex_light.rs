@@ -5,18 +5,21 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use glam::Vec3;
 
-use super::SceneBuffers;
+use super::vertex_order::VertexOrder;
 use crate::baked::VertexLight;
 use crate::gpu::Gpu;
 
 /// Irradiance on the device: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in their order there.
 #[derive(Clone)]
 pub(super) struct LightBuffer {
-    irradiance: wgpu::Buffer,
+    /// The buffer.
+    pub irradiance: wgpu::Buffer,
+    pub num_groups: usize,
+    pub num_vertices: usize,
     num_writes: Arc<AtomicU64>,
 }
 
-/// A state of the light of one scene: another after each writing.
+/// A state of the light of one scene; each write makes another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightVersion {
     irradiance: wgpu::Buffer,
@@ -24,7 +27,7 @@ pub struct LightVersion {
 }
 
 impl LightBuffer {
-    /// Zeros for all groups; never empty, so that it can be bound.
+    /// Zeros for all groups; never empty, because an empty buffer cannot be bound.
     pub fn new(gpu: &Gpu, num_groups: usize, num_vertices: usize) -> Self {
         let irradiance = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("vertex irradiance"),
@@ -32,47 +35,24 @@ impl LightBuffer {
             usage: wgpu::BufferUsages::STORAGE | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });
-        Self { irradiance, num_writes: Arc::default() }
-    }
-}
-
-impl SceneBuffers {
-    /// The irradiance: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in the order of
-    /// [`Self::vertices`].
-    #[must_use]
-    pub fn irradiance(&self) -> &wgpu::Buffer {
-        &self.light.irradiance
+        Self { irradiance, num_groups, num_vertices, num_writes: Arc::default() }
     }
 
-    /// The state that the light is in.
-    #[must_use]
-    pub fn light_version(&self) -> LightVersion {
-        let num_writes = self.light.num_writes.load(Ordering::Acquire);
-        LightVersion { irradiance: self.light.irradiance.clone(), num_writes }
+    /// The state of the light.
+    pub fn version(&self) -> LightVersion {
+        let num_writes = self.num_writes.load(Ordering::Acquire);
+        LightVersion { irradiance: self.irradiance.clone(), num_writes }
     }
 
-    /// Replaces the light; the mesh is the same, groups that `light` lacks keep theirs.
-    pub fn set_light(&self, gpu: &Gpu, light: &VertexLight) {
-        self.write_parts(gpu, light, |_| ());
-    }
-
-    /// As [`Self::set_light`], each part on its way before the next, with `rest` between them: a frame of another thread
-    /// waits for one part at most.
-    pub fn set_light_in_parts(&self, gpu: &Gpu, light: &VertexLight, rest: impl Fn()) {
-        self.write_parts(gpu, light, |gpu| {
-            gpu.queue.submit([]);
-            rest();
-        });
-    }
-
-    fn write_parts(&self, gpu: &Gpu, light: &VertexLight, written: impl Fn(&Gpu)) {
+    /// Writes `light`, group by group and part by part, and calls `written` after each part.
+    pub fn write(&self, gpu: &Gpu, order: &VertexOrder, light: &VertexLight, written: impl Fn(&Gpu)) {
         let part_size = (self.num_vertices * size_of::<Vec3>()) as u64;
         let parts = light.groups.iter().take(self.num_groups).flat_map(|group| [&group.direct, &group.indirect]);
         for (part, values) in parts.enumerate() {
             assert_eq!(values.len(), self.num_vertices, "light of another mesh");
-            let values = self.vertex_order.sorted(values);
-            gpu.queue.write_buffer(self.irradiance(), part as u64 * part_size, bytemuck::cast_slice(&values));
-            self.light.num_writes.fetch_add(1, Ordering::Release);
+            let values = order.sorted(values);
+            gpu.queue.write_buffer(&self.irradiance, part as u64 * part_size, bytemuck::cast_slice(&values));
+            self.num_writes.fetch_add(1, Ordering::Release);
             written(gpu);
         }
     }

@@ -90,7 +90,7 @@ impl Judge {
         let Case { scene, shadows, view, .. } = case;
         // The last case may have been another scene.
         self.light.forget();
-        let seen = &scene.in_view(gpu, &view.outlook(&render_settings));
+        let seen = &scene.in_view(gpu, &view.cull_view(&render_settings));
         of(
             &mut self.light,
             Subject { frame: &frame, scene, seen, shadows, view, settings: &render_settings, watch: None },

@@ -197,13 +197,12 @@ mod tests {
     use crate::base::ids::{InstanceId, MaterialId};
     use crate::base::sampling::{hash, unit_float};
     use crate::scene::{Material, Triangle as SceneTriangle, Vertex};
-    use glam::{Vec2, Vec4};
 
     /// A fan of triangles round a point, whose corners have no round numbers.
     fn fan(num_blades: u32) -> Scene {
         let mut scene = Scene { materials: vec![Material::default()], ..Scene::default() };
         let mut corner = |position| {
-            scene.vertices.push(Vertex { position, normal: Vec3::Y, uv: [Vec2::ZERO; 2], colour: Vec4::ONE });
+            scene.vertices.push(Vertex::new(position, Vec3::Y));
             scene.vertices.len() as u32 - 1
         };
         let middle = corner(Vec3::new(0.123, 0.456, -0.789));

@@ -178,12 +178,9 @@ impl Surface {
             samples.push(LightSample {
                 light: Light {
                     name: scene.instances[scene.triangles[id.index()].instance.index()].name.clone(),
-                    kind: LightKind::Point { position },
-                    // A Lambertian of radiance L and area A has the intensity L A cos.
-                    intensity: radiance * (area / count as f32),
-                    range: None,
-                    profile: None,
                     group: self.group,
+                    // A Lambertian of radiance L and area A has the intensity L A cos.
+                    ..Light::point(position, radiance * (area / count as f32))
                 },
                 surface_normal: Some(normal),
                 lamp,
@@ -213,29 +210,16 @@ mod tests {
     use super::*;
     use std::f32::consts::PI;
 
-    use crate::base::ids::{InstanceId, MaterialId};
-    use crate::scene::{Instance, Material, Triangle, Vertex};
+    use crate::scene::{Material, SceneBuilder};
 
     /// A square of side 2 at height 1 that shines down with exitance pi.
     fn panel(double_sided: bool) -> Scene {
         let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-        let vertex = |(x, z): (f32, f32)| Vertex {
-            position: Vec3::new(x, 1.0, z),
-            normal: Vec3::NEG_Y,
-            uv: [Vec2::ZERO; 2],
-            colour: Vec4::ONE,
-        };
-        let triangle =
-            |vertices| Triangle { vertices, material: MaterialId(0), instance: InstanceId(0), is_back_side: false };
-        let lamp = Material { emission: Vec3::ONE, group: Some(GroupId(0)), double_sided, ..Material::default() };
-        Scene {
-            vertices: corners.map(vertex).to_vec(),
-            triangles: vec![triangle([0, 1, 2]), triangle([0, 2, 3])],
-            instances: vec![Instance::default()],
-            materials: vec![lamp],
-            light_groups: vec!["lamps".to_owned()],
-            ..Scene::default()
-        }
+        let mut builder = SceneBuilder::default();
+        let group = Some(builder.group("lamps"));
+        let lamp = builder.material(Material { emission: Vec3::ONE, group, double_sided, ..Material::default() });
+        builder.quad(corners.map(|(x, z)| Vec3::new(x, 1.0, z)), lamp);
+        builder.build()
     }
 
     #[test]
@@ -255,17 +239,8 @@ mod tests {
 
     #[test]
     fn a_light_with_a_radius_is_a_ball_of_points_as_strong_together() {
-        let light = |kind| Light {
-            name: String::new(),
-            kind,
-            intensity: Vec3::ONE,
-            range: None,
-            profile: None,
-            group: GroupId(0),
-        };
         let position = Vec3::new(1.0, 2.0, 3.0);
-        let lights =
-            vec![light(LightKind::Point { position }), light(LightKind::Directional { direction: Vec3::NEG_Y })];
+        let lights = vec![Light::point(position, Vec3::ONE), Light::directional(Vec3::NEG_Y, Vec3::ONE)];
         let scene = Scene { lights, ..Scene::default() };
         assert_eq!(light_samples(&scene, 64, 0.0).len(), 2);
         assert_eq!(light_samples(&scene, 1, 0.3)[0].place(), position.extend(1.0));

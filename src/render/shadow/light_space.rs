@@ -28,7 +28,6 @@ pub fn light_from_world(sample: &LightSample) -> Mat4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::ids::GroupId;
     use crate::scene::Light;
     use glam::Vec3;
 
@@ -42,15 +41,7 @@ mod tests {
             LightKind::Spot { position, direction, inner_angle: 0.2, outer_angle: 0.4 },
         ];
         for kind in kinds {
-            let light = Light {
-                name: String::new(),
-                kind,
-                intensity: Vec3::ONE,
-                range: None,
-                group: GroupId(0),
-                profile: None,
-            };
-            let sample = LightSample { light, surface_normal: None, lamp: 0 };
+            let sample = LightSample { light: Light::new(kind, Vec3::ONE), surface_normal: None, lamp: 0 };
             let axes = axes(&sample);
             assert!(
                 (axes.determinant() - 1.0).abs() < 1e-5 && (axes * axes.transpose()).abs_diff_eq(Mat3::IDENTITY, 1e-5)

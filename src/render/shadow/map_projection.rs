@@ -172,7 +172,6 @@ impl Fitted {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::ids::GroupId;
     use crate::gpu::shader::struct_layout;
     use crate::render::shadow::map_light::DIRECT_LIGHT_MAP;
     use crate::scene::{Light, builtin};
@@ -199,9 +198,7 @@ mod tests {
     }
 
     fn sample(kind: LightKind) -> LightSample {
-        let light =
-            Light { name: String::new(), kind, intensity: Vec3::ONE, range: None, group: GroupId(0), profile: None };
-        LightSample { light, surface_normal: None, lamp: 0 }
+        LightSample { light: Light::new(kind, Vec3::ONE), surface_normal: None, lamp: 0 }
     }
 
     #[test]

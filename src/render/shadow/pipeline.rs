@@ -4,7 +4,7 @@ use glam::Vec4;
 
 use super::light_targets::depth_stencil_format;
 use crate::gpu::Gpu;
-use crate::render::scene::buffers::GpuVertex;
+use crate::render::scene::gpu_vertex::GpuVertex;
 
 /// Homogeneous corners.
 pub const CORNER: wgpu::VertexBufferLayout<'_> = wgpu::VertexBufferLayout {

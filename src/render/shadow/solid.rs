@@ -2,7 +2,7 @@
 
 use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
-use crate::render::scene::buffers::Batch;
+use crate::render::scene::draw_batch::DrawBatch;
 use crate::scene::AlphaMode;
 
 /// One pipeline for surfaces whose backs are left out, one for those with two faces.
@@ -18,7 +18,7 @@ impl SolidPipelines {
     }
 
     /// The pipeline of a batch.
-    pub fn of(&self, batch: &Batch, settings: &RenderSettings) -> &wgpu::RenderPipeline {
+    pub fn of(&self, batch: &DrawBatch, settings: &RenderSettings) -> &wgpu::RenderPipeline {
         if batch.faces.are_culled(settings.cull_back) { &self.culled } else { &self.two_faced }
     }
 
@@ -41,6 +41,6 @@ pub fn bind_mesh(pass: &mut wgpu::RenderPass<'_>, scene: &SceneBuffers) {
 }
 
 /// Batches that write depth.
-pub fn solid_batches(scene: &SceneBuffers) -> impl Iterator<Item = &Batch> {
+pub fn solid_batches(scene: &SceneBuffers) -> impl Iterator<Item = &DrawBatch> {
     scene.batches.iter().filter(|batch| batch.alpha_mode != AlphaMode::Blend)
 }

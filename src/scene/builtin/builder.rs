@@ -5,47 +5,46 @@ use std::collections::HashMap;
 use glam::{Vec3, Vec4};
 
 use super::shape::Shape;
-use crate::base::ids::{GroupId, InstanceId, MaterialId, TextureId};
+use crate::base::ids::{MaterialId, TextureId};
 use crate::scene::{
-    Camera, Image, Instance, Light, LightKind, Material, Sampler, Scene, Texture, TextureSlot, Triangle, Vertex, Wrap,
+    Camera, Image, Light, LightKind, Material, Sampler, Scene, SceneBuilder, Texture, TextureSlot, Vertex, Wrap,
 };
 
 /// A scene in the making.
 pub(super) struct Builder {
-    scene: Scene,
+    scene: SceneBuilder,
+    textures: Vec<Texture>,
 }
 
 /// A matt surface of the given linear reflectance.
 pub(super) fn paint(name: &str, reflectance: [f32; 3]) -> Material {
-    let base_colour = Vec3::from(reflectance).extend(1.0);
-    Material { name: name.to_owned(), base_colour, metallic: 0.0, ..Material::default() }
+    Material { name: name.to_owned(), ..Material::diffuse(reflectance.into()) }
 }
 
 impl Builder {
     pub(super) fn new(name: &str) -> Self {
-        Self { scene: Scene { name: name.to_owned(), ..Scene::default() } }
+        Self { scene: SceneBuilder::new(name), textures: Vec::new() }
     }
 
     pub(super) fn finish(self) -> Scene {
-        self.scene
+        Scene { textures: self.textures, ..self.scene.build() }
     }
 
     pub(super) fn material(&mut self, material: Material) -> MaterialId {
-        self.scene.materials.push(material);
-        MaterialId::new(self.scene.materials.len() - 1)
+        self.scene.material(material)
     }
 
     /// A matt surface that also emits `radiance`, nit per channel, in a light group.
     pub(super) fn glowing(&mut self, paint: Material, radiance: Vec3, group: &str) -> MaterialId {
-        let group = Some(self.group(group));
+        let group = Some(self.scene.group(group));
         self.material(Material { emission: radiance, group, ..paint })
     }
 
     /// A texture that repeats.
     pub(super) fn texture(&mut self, image: Image) -> TextureSlot {
         let sampler = Sampler { wrap_u: Wrap::Repeat, wrap_v: Wrap::Repeat, nearest: false };
-        self.scene.textures.push(Texture { image: image.into(), sampler });
-        let texture = TextureId::new(self.scene.textures.len() - 1);
+        self.textures.push(Texture { image: image.into(), sampler });
+        let texture = TextureId::new(self.textures.len() - 1);
         TextureSlot { texture, uv_set: 0, transform: glam::Affine2::IDENTITY }
     }
 
@@ -54,42 +53,21 @@ impl Builder {
         self.material(Material { base_colour_texture: Some(texture), ..paint })
     }
 
-    /// The light group of this name, a new one if need be.
-    pub(super) fn group(&mut self, name: &str) -> GroupId {
-        let groups = &mut self.scene.light_groups;
-        let index = groups.iter().position(|group| group == name).unwrap_or_else(|| {
-            groups.push(name.to_owned());
-            groups.len() - 1
-        });
-        GroupId::new(index)
-    }
-
     /// Makes a shape an object of the scene.
     pub(super) fn place(&mut self, name: &str, material: MaterialId, shape: Shape) {
         let shape = weld(&shape);
-        let scene = &mut self.scene;
-        let (instance, first) = (InstanceId::new(scene.instances.len()), scene.vertices.len() as u32);
-        let begin = scene.triangles.len();
-        scene.vertices.extend(shape.vertices);
-        let triangle = |corners: [u32; 3]| Triangle {
-            vertices: corners.map(|v| first + v),
-            material,
-            instance,
-            is_back_side: false,
-        };
-        scene.triangles.extend(shape.triangles.into_iter().map(triangle));
-        scene.instances.push(Instance { name: name.to_owned(), triangles: begin..scene.triangles.len() });
+        self.scene.mesh(name, material, shape.vertices, shape.triangles);
     }
 
     /// Adds a light; `intensity` in candela, for a directional one in lux.
     pub(super) fn light(&mut self, name: &str, kind: LightKind, intensity: Vec3, group: &str) {
-        let group = self.group(group);
-        self.scene.lights.push(Light { name: name.to_owned(), kind, intensity, range: None, profile: None, group });
+        let group = self.scene.group(group);
+        self.scene.light(Light { name: name.to_owned(), group, ..Light::new(kind, intensity) });
     }
 
     /// Adds a camera with a full vertical angle of `fov_deg` degrees.
     pub(super) fn camera(&mut self, name: &str, eye: [f32; 3], target: [f32; 3], fov_deg: f32) {
-        self.scene.cameras.push(Camera::looking_at(name, eye.into(), target.into(), fov_deg.to_radians()));
+        self.scene.camera(Camera::looking_at(name, eye.into(), target.into(), fov_deg.to_radians()));
     }
 }
 

@@ -4,7 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::{Vec2, Vec3};
 
-use super::shape::{Shape, polygon, vertex};
+use super::shape::{Shape, polygon};
+use crate::scene::Vertex;
 
 /// Neighbouring bands of a profile meet smoothly where their normals are closer than this (cosine of 50 degrees).
 const CREASE: f32 = 0.643;
@@ -37,7 +38,7 @@ fn ring([low, high]: [Vec2; 2], normals: [Vec2; 2], sides: u32) -> Shape {
         let turned = |v: Vec2| Vec3::new(v.x * around.x, v.y, v.x * -around.y);
         // On the axis all sides meet in one point with one normal.
         let normal = if at.x == 0.0 { Vec3::Y * normal.y.signum() } else { turned(normal) };
-        vertex(turned(at), normal.normalize())
+        Vertex::new(turned(at), normal.normalize())
     };
     let mut shape = Shape::default();
     for side in 0..sides {

@@ -1,6 +1,6 @@
 //! Small pieces of mesh: plain data that is made, moved and joined before it becomes part of a scene.
 
-use glam::{Quat, Vec2, Vec3, Vec4};
+use glam::{Quat, Vec2, Vec3};
 
 use crate::scene::Vertex;
 
@@ -38,17 +38,12 @@ impl Side {
     }
 }
 
-/// A vertex without texture coordinates.
-pub(super) fn vertex(position: Vec3, normal: Vec3) -> Vertex {
-    Vertex { position, normal, uv: [Vec2::ZERO; 2], colour: Vec4::ONE }
-}
-
 /// A flat convex polygon, its corners counter-clockwise seen from the front.
 pub(super) fn polygon(corners: &[Vec3]) -> Shape {
     // Newell's normal: the same for every triangle of the polygon.
     let around = (0..corners.len()).map(|i| corners[i].cross(corners[(i + 1) % corners.len()]));
     let normal = around.sum::<Vec3>().normalize();
-    let vertices = corners.iter().map(|&corner| vertex(corner, normal)).collect();
+    let vertices = corners.iter().map(|&corner| Vertex::new(corner, normal)).collect();
     let triangles = (1..corners.len() as u32 - 1).map(|i| [0, i, i + 1]).collect();
     Shape { vertices, triangles }
 }

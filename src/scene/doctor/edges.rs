@@ -1,19 +1,19 @@
-//! How triangles meet: open edges, windings, T-junctions, doubles.
+//! Defects where triangles meet: open edges, opposite windings, T-junctions, duplicates.
 
 use std::collections::HashMap;
 
 use glam::{IVec3, Vec3};
 
-use super::finding::{Finding, Kind, Place};
+use super::finding::{Finding, FindingKind, Location};
 use super::weld::Welded;
 
-/// Distance at which a vertex counts as lying on an edge, as a share of the scene's diagonal: a few steps of rounding.
+/// Distance within which a vertex lies on an edge, as a share of the scene's diagonal: a few units of rounding.
 const ON_EDGE: f32 = 4e-6;
 
-/// Longest walk along one edge, in cells of the search grid.
+/// Most steps along one edge in the search grid.
 const MAX_STEPS: usize = 4096;
 
-/// Triangles on the same three vertices with the same front, beyond the first.
+/// Triangles with the same three vertices and the same front; of each set, all but the first.
 pub(super) fn duplicates(welded: &Welded) -> Finding {
     let from_smallest = |i: usize| {
         let [a, b, c] = welded.triangles[i];
@@ -22,18 +22,18 @@ pub(super) fn duplicates(welded: &Welded) -> Finding {
     let mut sorted: Vec<_> = (0..welded.triangles.len()).map(from_smallest).collect();
     sorted.sort_unstable();
     let doubles = sorted.windows(2).filter(|pair| pair[0].0 == pair[1].0).map(|pair| pair[1].1);
-    Finding::counted(Kind::DuplicateTriangle, doubles.map(|i| Place::triangle(welded.corners(i))))
+    Finding::counted(FindingKind::DuplicateTriangle, doubles.map(|i| Location::triangle(welded.corners(i))))
 }
 
-/// An edge by its welded ends, smaller first.
+/// An edge: the indices of its welded end points, the smaller one first.
 type Edge = [u32; 2];
 
-/// Edges by how triangles share them.
+/// Defective edges, sorted by how triangles share them.
 #[derive(Default)]
 pub(super) struct Edges {
     open: Vec<Edge>,
     non_manifold: Vec<Edge>,
-    wound_against: Vec<Edge>,
+    flipped: Vec<Edge>,
 }
 
 impl Edges {
@@ -46,7 +46,7 @@ impl Edges {
         for uses in uses.chunk_by(|x, y| x.0 == y.0) {
             match uses {
                 [(edge, _)] => edges.open.push(*edge),
-                [first, second] if first.1 == second.1 => edges.wound_against.push(first.0),
+                [first, second] if first.1 == second.1 => edges.flipped.push(first.0),
                 [_, _] | [] => {}
                 [(edge, _), ..] => edges.non_manifold.push(*edge),
             }
@@ -54,21 +54,21 @@ impl Edges {
         edges
     }
 
-    /// Findings that the counts alone make.
+    /// The findings about edges that follow from the number of their triangles.
     pub fn findings(&self, welded: &Welded) -> [Finding; 3] {
         let shown = |kind, edges: &[Edge]| {
-            let ends = |edge: &Edge| Place::segment(edge.map(|w| welded.positions[w as usize]));
+            let ends = |edge: &Edge| Location::segment(edge.map(|w| welded.positions[w as usize]));
             Finding::counted(kind, edges.iter().map(ends))
         };
         [
-            shown(Kind::OpenEdge, &self.open),
-            shown(Kind::NonManifoldEdge, &self.non_manifold),
-            shown(Kind::FlippedWinding, &self.wound_against),
+            shown(FindingKind::OpenEdge, &self.open),
+            shown(FindingKind::NonManifoldEdge, &self.non_manifold),
+            shown(FindingKind::FlippedWinding, &self.flipped),
         ]
     }
 
-    /// Vertices of open edges that lie inside another open edge: two triangles meet one there, and light or background
-    /// shines through the crack.
+    /// Vertices of open edges that lie inside another open edge. There two triangles meet one, and rounding opens cracks
+    /// through which light or background shines.
     pub fn t_junctions(&self, welded: &Welded, diagonal: f32) -> Finding {
         let tolerance = ON_EDGE * diagonal;
         let grid = Grid::new(&self.open, welded, tolerance);
@@ -83,11 +83,14 @@ impl Edges {
         }
         found.sort_unstable();
         found.dedup();
-        Finding::counted(Kind::TJunction, found.into_iter().map(|w| Place::segment([welded.positions[w as usize]; 2])))
+        Finding::counted(
+            FindingKind::TJunction,
+            found.into_iter().map(|w| Location::segment([welded.positions[w as usize]; 2])),
+        )
     }
 }
 
-/// A point on an edge but not at its ends.
+/// Whether a point lies on an edge, but not at its ends.
 fn lies_inside(point: Vec3, [a, b]: [Vec3; 2], tolerance: f32) -> bool {
     let along = (b - a).normalize_or_zero();
     let t = (point - a).dot(along);
@@ -95,14 +98,14 @@ fn lies_inside(point: Vec3, [a, b]: [Vec3; 2], tolerance: f32) -> bool {
     is_between && (a + along * t).distance(point) <= tolerance
 }
 
-/// Ends of open edges by the cell they lie in.
+/// End points of open edges in a hash grid.
 struct Grid {
     cell: f32,
     ends: HashMap<IVec3, Vec<u32>>,
 }
 
 impl Grid {
-    /// Cells as large as an open edge is long on average.
+    /// Inserts the end points into cells whose side is the mean length of the open edges.
     fn new(open: &[Edge], welded: &Welded, tolerance: f32) -> Self {
         let length = |edge: &Edge| {
             let [a, b] = edge.map(|w| welded.positions[w as usize]);
@@ -123,7 +126,7 @@ impl Grid {
         (point / self.cell).floor().as_ivec3()
     }
 
-    /// Calls `visit` with every end near an edge, the edge's own left out; some more than once.
+    /// Calls `visit` with every end point near an edge except the edge's own, possibly more than once.
     fn near(&self, edge: Edge, welded: &Welded, mut visit: impl FnMut(u32)) {
         let [a, b] = edge.map(|w| welded.positions[w as usize]);
         let num_steps = ((a.distance(b) / self.cell).ceil() as usize).clamp(1, MAX_STEPS);

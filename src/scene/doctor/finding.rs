@@ -1,57 +1,56 @@
-//! What the doctor finds: its kind, how often, where, and what to do about it.
+//! A finding of the mesh doctor: its kind, how often it occurs, where, and the advice to the user.
 
 use glam::Vec3;
 
-/// Most places of a finding that are kept to be shown.
-const MAX_PLACES: usize = 10_000;
+/// Most locations that a finding keeps.
+const MAX_LOCATIONS: usize = 10_000;
 
-/// Something that the doctor looks for.
+/// Kind of defect.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Nothing is there to be lit.
+pub enum FindingKind {
+    /// The scene has no triangles.
     Empty,
-    /// A triangle without area, dropped by the loader.
+    /// A triangle without area, which the loader dropped.
     DegenerateTriangle,
-    /// A triangle that lies exactly on another one and faces the same way.
+    /// A triangle with the same three positions as another one and the same front.
     DuplicateTriangle,
-    /// An edge with a triangle on one side only, after welding equal positions.
+    /// An edge of only one triangle, after equal positions are welded.
     OpenEdge,
-    /// An edge where more than two triangles meet.
+    /// An edge of more than two triangles.
     NonManifoldEdge,
-    /// An edge whose two triangles are wound against each other: one of them shows its back.
+    /// An edge whose two triangles have opposite windings, so that one of them shows its back.
     FlippedWinding,
-    /// A triangle whose vertex normals say that its back is its front.
+    /// A triangle whose vertex normals all point to its back.
     NormalAgainstWinding,
     /// A vertex inside an edge of another triangle.
     TJunction,
     /// A triangle that overlaps another in the same plane.
     CoplanarOverlap,
-    /// The bounding box has no plausible size of a room or building.
+    /// The bounding box is implausibly small or large for a room or building.
     DoubtfulScale,
-    /// A material in use reflects more than 0.9 on average.
+    /// A used material with a mean reflectance above 0.9.
     BrightMaterial,
-    /// A texture whose image could not be read.
+    /// A texture whose image cannot be read.
     MissingTexture,
-    /// Nothing emits.
+    /// The scene has no light and no emissive material.
     Dark,
-    /// A light that no surface can receive, or an emissive material that nothing wears.
+    /// A light that reaches no surface, or an emissive material that no triangle uses.
     LightWithoutEffect,
 }
 
-impl Kind {
-    /// What is counted, and what to do about it.
+impl FindingKind {
+    /// Description of what is counted, and advice to the user.
     fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Empty => ("there are no triangles", "check that the right scene was exported"),
-            Self::DegenerateTriangle => ("triangles without area", "they were dropped, nothing needs to be done"),
-            Self::DuplicateTriangle => ("duplicate triangles", "delete doubles in the modeller"),
+            Self::DegenerateTriangle => ("triangles without area", "they are dropped; you need not do anything"),
+            Self::DuplicateTriangle => ("duplicate triangles", "delete the duplicates in the modeller"),
             Self::OpenEdge => {
-                ("open edges", "harmless round free-standing sheets, but close gaps between walls, floor and ceiling")
+                ("open edges", "harmless around free-standing sheets; close gaps between walls, floor and ceiling")
             }
-            Self::NonManifoldEdge => (
-                "edges of more than two triangles",
-                "harmless in most scenes, but remove inner faces where light leaks",
-            ),
+            Self::NonManifoldEdge => {
+                ("edges of more than two triangles", "harmless in most scenes; remove inner faces if light leaks there")
+            }
             Self::FlippedWinding => {
                 ("edges between a front and a back", "recalculate normals outwards, or make the material double-sided")
             }
@@ -61,34 +60,36 @@ impl Kind {
             ),
             Self::TJunction => (
                 "vertices inside an edge of another triangle",
-                "they may show as cracks; split the edge there, or weld in the modeller",
+                "they may show as cracks; split the edge at the vertex, or weld both in the modeller",
             ),
             Self::CoplanarOverlap => (
                 "triangles that overlap another in the same plane",
-                "they flicker; move one a millimetre, or cut it out",
+                "they flicker; move one by a millimetre, or delete the overlap",
             ),
-            Self::DoubtfulScale => ("the scene measures", "glTF is in metres, check the export scale"),
+            Self::DoubtfulScale => ("the scene measures", "glTF lengths are in metres; check the scale of the export"),
             Self::BrightMaterial => {
-                ("materials that reflect more than 0.9 of the light", "white paint has 0.85, darken them")
+                ("materials that reflect more than 0.9 of the light", "white paint reflects 0.85; darken them")
             }
-            Self::MissingTexture => ("missing textures", "grey is used instead; put their files beside the scene"),
-            Self::Dark => ("nothing emits light", "add a light or an emissive material and export lights too"),
+            Self::MissingTexture => ("missing textures", "grey is shown instead; put the files beside the scene"),
+            Self::Dark => {
+                ("nothing emits light", "add a light or an emissive material, and include lights in the export")
+            }
             Self::LightWithoutEffect => (
                 "lights without effect",
-                "no surface lies in their range or cone, or nothing wears the material; move or delete them",
+                "no surface lies in their range or cone, or no triangle uses the material; move or delete them",
             ),
         }
     }
 }
 
-/// Where something is, as lines to draw; a point is a line without length.
+/// Location of a defect as line segments to draw; a point is a segment of length zero.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Place {
-    /// Ends of lines, metres.
+pub struct Location {
+    /// End points of the segments, metres.
     pub lines: Vec<[Vec3; 2]>,
 }
 
-impl Place {
+impl Location {
     pub(super) fn segment(ends: [Vec3; 2]) -> Self {
         Self { lines: vec![ends] }
     }
@@ -98,62 +99,62 @@ impl Place {
     }
 }
 
-/// Something that the doctor found.
+/// All defects of one kind.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Finding {
-    /// What it is.
-    pub kind: Kind,
-    /// How often it was found; never zero in [`Findings`].
+    /// Kind of defect.
+    pub kind: FindingKind,
+    /// Number of defects; never zero in [`Findings`].
     pub count: usize,
-    /// Names or sizes that belong to it; may be empty.
+    /// Names or sizes for the message; may be empty.
     pub detail: String,
-    /// Where it is: the first ten thousand places, none where it has no place.
-    pub places: Vec<Place>,
+    /// Locations of the first ten thousand; empty if this kind of defect has no location.
+    pub locations: Vec<Location>,
 }
 
 impl Finding {
-    pub(super) fn new(kind: Kind) -> Self {
-        Self { kind, count: 0, detail: String::new(), places: Vec::new() }
+    pub(super) fn new(kind: FindingKind) -> Self {
+        Self { kind, count: 0, detail: String::new(), locations: Vec::new() }
     }
 
-    pub(super) fn counted(kind: Kind, places: impl Iterator<Item = Place> + Clone) -> Self {
-        let mut finding = Self { count: places.clone().count(), ..Self::new(kind) };
-        finding.show(places);
+    pub(super) fn counted(kind: FindingKind, locations: impl Iterator<Item = Location> + Clone) -> Self {
+        let mut finding = Self { count: locations.clone().count(), ..Self::new(kind) };
+        finding.show(locations);
         finding
     }
 
-    pub(super) fn show(&mut self, places: impl Iterator<Item = Place>) {
-        self.places = places.take(MAX_PLACES).collect();
+    pub(super) fn show(&mut self, locations: impl Iterator<Item = Location>) {
+        self.locations = locations.take(MAX_LOCATIONS).collect();
     }
 
-    /// One sentence with the count and what to do.
+    /// Message of one line: count and advice.
     #[must_use]
     pub fn line(&self) -> String {
         let (what, advice) = self.kind.words();
         match (self.kind, self.detail.is_empty()) {
-            (Kind::Empty | Kind::Dark, _) => format!("{what}; {advice}"),
-            (Kind::DoubtfulScale, _) => format!("{what} {}; {advice}", self.detail),
+            (FindingKind::Empty | FindingKind::Dark, _) => format!("{what}; {advice}"),
+            (FindingKind::DoubtfulScale, _) => format!("{what} {}; {advice}", self.detail),
             (_, true) => format!("{what}: {}; {advice}", self.count),
             (_, false) => format!("{what}: {} ({}); {advice}", self.count, self.detail),
         }
     }
 }
 
-/// What the doctor found; nothing for a healthy scene.
+/// Findings of the doctor; empty for a sound scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Findings {
-    /// In a fixed order of kinds.
+    /// One finding per kind, in the order of [`FindingKind`].
     pub findings: Vec<Finding>,
 }
 
 impl Findings {
-    /// How often a kind was found.
+    /// Number of defects of a kind.
     #[must_use]
-    pub fn count(&self, kind: Kind) -> usize {
+    pub fn count(&self, kind: FindingKind) -> usize {
         self.findings.iter().filter(|finding| finding.kind == kind).map(|finding| finding.count).sum()
     }
 
-    /// One sentence for each finding.
+    /// The messages, one line per finding.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
         self.findings.iter().map(Finding::line).collect()

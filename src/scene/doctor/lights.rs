@@ -1,31 +1,31 @@
-//! Lights that light nothing.
+//! Lights without effect.
 
 use glam::Vec3;
 
-use super::finding::{Finding, Kind, Place};
+use super::finding::{Finding, FindingKind, Location};
 use crate::base::ids::TriangleId;
 use crate::scene::{Light, LightKind, Scene};
 
-/// Most pairs of light and triangle that are looked at; with more lights than that, none is doubted.
+/// Most pairs of light and triangle that are tested; a scene with more pairs is not tested at all.
 const MAX_PAIRS: usize = 200_000_000;
 
-/// Lights whose range or cone no surface reaches into, and emissive materials that nothing wears.
+/// Lights whose range and cone contain no surface, and emissive materials that no triangle uses.
 ///
-/// Surfaces are taken as larger than they are (by the sphere round a triangle), so that no light is accused wrongly.
+/// The test is conservative: a triangle is replaced by a sphere around it, so every reported light is without effect.
 pub(super) fn without_effect(scene: &Scene) -> Finding {
     let is_affordable = scene.lights.len().saturating_mul(scene.triangles.len()) <= MAX_PAIRS;
-    let doubted = scene.lights.iter().filter(|light| is_affordable && !reaches_anything(light, scene));
-    let idle: Vec<&Light> = doubted.collect();
-    let mut is_worn = vec![false; scene.materials.len()];
+    let idle = scene.lights.iter().filter(|light| is_affordable && !reaches_anything(light, scene));
+    let idle: Vec<&Light> = idle.collect();
+    let mut is_used = vec![false; scene.materials.len()];
     for triangle in &scene.triangles {
-        is_worn[triangle.material.index()] = true;
+        is_used[triangle.material.index()] = true;
     }
-    let unworn = scene.materials.iter().zip(is_worn).filter(|(material, worn)| material.is_emissive() && !worn);
+    let unused = scene.materials.iter().zip(is_used).filter(|(material, used)| material.is_emissive() && !used);
     let names: Vec<_> =
-        idle.iter().map(|light| light.name.as_str()).chain(unworn.map(|(m, _)| m.name.as_str())).collect();
-    let mut finding = Finding { count: names.len(), ..Finding::new(Kind::LightWithoutEffect) };
+        idle.iter().map(|light| light.name.as_str()).chain(unused.map(|(m, _)| m.name.as_str())).collect();
+    let mut finding = Finding { count: names.len(), ..Finding::new(FindingKind::LightWithoutEffect) };
     finding.detail = names.join(", ");
-    finding.show(idle.iter().filter_map(|light| position(light)).map(|at| Place::segment([at; 2])));
+    finding.show(idle.iter().filter_map(|light| position(light)).map(|at| Location::segment([at; 2])));
     finding
 }
 

@@ -1,6 +1,6 @@
-//! The mesh doctor: what in a scene will make its light wrong or slow, in plain English, where it is, and what to do.
+//! The mesh doctor: lists what makes the light of a scene wrong or slow to compute, where it is, and what to do about it.
 //!
-//! It only looks; nothing is repaired here.
+//! The doctor reports and repairs nothing.
 
 mod edges;
 mod finding;
@@ -11,17 +11,17 @@ mod surfaces;
 mod tests;
 mod weld;
 
-pub use self::finding::{Finding, Findings, Kind, Place};
+pub use self::finding::{Finding, FindingKind, Findings, Location};
 use self::weld::Welded;
 use crate::base::ids::TriangleId;
 use crate::scene::{Scene, normal_of};
 
-/// Diagonals of the bounding box outside which the unit is doubted, metres.
+/// Plausible diagonals of the bounding box, metres; outside this range the file's unit is probably wrong.
 const PLAUSIBLE_DIAGONAL: std::ops::RangeInclusive<f32> = 0.2..=2000.0;
 
-/// Looks a scene over.
+/// Examines a scene and returns all findings.
 ///
-/// Cost: some sorts of all edges and a search grid; half a million triangles take about a second.
+/// Cost: a few sorts of all edges and a search grid; half a million triangles take about a second.
 #[must_use]
 pub fn examine(scene: &Scene) -> Findings {
     let diagonal = scene.bounds().diagonal();
@@ -29,8 +29,8 @@ pub fn examine(scene: &Scene) -> Findings {
     let edges = edges::Edges::new(&welded);
     let [open, non_manifold, flipped] = edges.findings(&welded);
     let all = [
-        presence(Kind::Empty, scene.triangles.is_empty()),
-        Finding { count: scene.dropped_triangles, ..Finding::new(Kind::DegenerateTriangle) },
+        presence(FindingKind::Empty, scene.triangles.is_empty()),
+        Finding { count: scene.dropped_triangles, ..Finding::new(FindingKind::DegenerateTriangle) },
         edges::duplicates(&welded),
         open,
         non_manifold,
@@ -41,19 +41,19 @@ pub fn examine(scene: &Scene) -> Findings {
         doubtful_scale(scene, diagonal),
         surfaces::bright_materials(scene),
         surfaces::missing_textures(scene),
-        presence(Kind::Dark, scene.light_groups.is_empty()),
+        presence(FindingKind::Dark, scene.light_groups.is_empty()),
         lights::without_effect(scene),
     ];
     Findings { findings: all.into_iter().filter(|finding| finding.count > 0).collect() }
 }
 
-fn presence(kind: Kind, is_so: bool) -> Finding {
+fn presence(kind: FindingKind, is_so: bool) -> Finding {
     Finding { count: usize::from(is_so), ..Finding::new(kind) }
 }
 
 fn doubtful_scale(scene: &Scene, diagonal: f32) -> Finding {
     let is_doubtful = !scene.triangles.is_empty() && !PLAUSIBLE_DIAGONAL.contains(&diagonal);
-    Finding { detail: format!("{diagonal:.3} m corner to corner"), ..presence(Kind::DoubtfulScale, is_doubtful) }
+    Finding { detail: format!("{diagonal:.3} m corner to corner"), ..presence(FindingKind::DoubtfulScale, is_doubtful) }
 }
 
 fn normals_against_winding(scene: &Scene) -> Finding {
@@ -63,6 +63,6 @@ fn normals_against_winding(scene: &Scene) -> Finding {
         vertices.iter().all(|normal| normal.dot(face) < 0.0)
     };
     let against: Vec<usize> = (0..scene.triangles.len()).filter(is_against).collect();
-    let corners = |t: usize| Place::triangle(scene.corners(TriangleId::new(t)));
-    Finding::counted(Kind::NormalAgainstWinding, against.into_iter().map(corners))
+    let corners = |t: usize| Location::triangle(scene.corners(TriangleId::new(t)));
+    Finding::counted(FindingKind::NormalAgainstWinding, against.into_iter().map(corners))
 }

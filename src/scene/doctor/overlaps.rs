@@ -1,19 +1,19 @@
-//! Surfaces that lie in each other: they flicker when drawn, and both receive light as if alone.
+//! Coplanar surfaces that overlap. They flicker when drawn, and each receives light as if the other did not exist.
 
 use std::collections::HashMap;
 
 use glam::{DVec2, DVec3};
 
-use super::finding::{Finding, Kind, Place};
+use super::finding::{Finding, FindingKind, Location};
 use super::weld::Welded;
 
-/// Distance at which planes are one, as a share of the scene's diagonal.
+/// Distance within which two planes are the same, as a share of the scene's diagonal.
 const SAME_PLANE: f64 = 1e-6;
 
-/// Share of the smaller triangle that must be covered; neighbours that only touch share less.
+/// Smallest overlap that counts, as a share of the smaller triangle's area; neighbours that only touch overlap less.
 const MIN_SHARE: f64 = 1e-3;
 
-/// Most pairs that are compared; a mesh that asks for more is not worth the wait.
+/// Most pairs of triangles that are compared; bounds the time that a degenerate mesh takes.
 const MAX_PAIRS: usize = 20_000_000;
 
 /// Most cells of the search grid of one plane.
@@ -27,7 +27,7 @@ struct Flat {
     high: DVec2,
 }
 
-/// Coplanar triangles that overlap in area, exact doubles left out.
+/// Coplanar triangles that overlap; exact duplicates are a finding of their own.
 pub(super) fn overlaps(welded: &Welded, diagonal: f32) -> Finding {
     let tolerance = SAME_PLANE * f64::from(diagonal).max(f64::MIN_POSITIVE);
     let mut involved = Vec::new();
@@ -37,10 +37,10 @@ pub(super) fn overlaps(welded: &Welded, diagonal: f32) -> Finding {
     }
     involved.sort_unstable();
     involved.dedup();
-    Finding::counted(Kind::CoplanarOverlap, involved.into_iter().map(|i| Place::triangle(welded.corners(i))))
+    Finding::counted(FindingKind::CoplanarOverlap, involved.into_iter().map(|i| Location::triangle(welded.corners(i))))
 }
 
-/// Triangles by plane; each stands under two neighbouring distances, so that rounding parts none.
+/// Triangles by plane. Each is entered under two neighbouring distances, so that rounding separates no coplanar pair.
 fn planes(welded: &Welded, tolerance: f64) -> HashMap<([i32; 3], i64, bool), Vec<usize>> {
     let mut planes: HashMap<_, Vec<usize>> = HashMap::new();
     for i in 0..welded.triangles.len() {
@@ -56,7 +56,7 @@ fn planes(welded: &Welded, tolerance: f64) -> HashMap<([i32; 3], i64, bool), Vec
     planes
 }
 
-/// A plane has two normals; this picks one.
+/// The one of a plane's two normals whose first non-zero component is positive.
 fn facing_up(normal: DVec3) -> DVec3 {
     let leading = normal.to_array().into_iter().find(|x| x.abs() > 1e-6).unwrap_or(1.0);
     if leading < 0.0 { -normal } else { normal }
@@ -87,7 +87,7 @@ fn overlaps_in_plane(welded: &Welded, triangles: &[usize], pairs_left: &mut usiz
                 if *pairs_left == 0 {
                     return;
                 }
-                if are_double(welded, flats[f].index, flats[g].index) || !boxes_meet(&flats[f], &flats[g]) {
+                if are_duplicates(welded, flats[f].index, flats[g].index) || !boxes_meet(&flats[f], &flats[g]) {
                     continue;
                 }
                 let shared = common_area(flats[f].corners, flats[g].corners);
@@ -99,7 +99,7 @@ fn overlaps_in_plane(welded: &Welded, triangles: &[usize], pairs_left: &mut usiz
     }
 }
 
-/// Triangles in two coordinates of the first one's plane, counter-clockwise.
+/// Triangles in two coordinates of the first one's plane, wound counter-clockwise.
 fn flatten(welded: &Welded, triangles: &[usize]) -> Vec<Flat> {
     let [a, b, c] = welded.corners(triangles[0]).map(|corner| corner.as_dvec3());
     let normal = (b - a).cross(c - a).normalize_or_zero();
@@ -118,7 +118,7 @@ fn flatten(welded: &Welded, triangles: &[usize]) -> Vec<Flat> {
     triangles.iter().map(flat).collect()
 }
 
-fn are_double(welded: &Welded, i: usize, j: usize) -> bool {
+fn are_duplicates(welded: &Welded, i: usize, j: usize) -> bool {
     let sorted = |i: usize| {
         let mut corners = welded.triangles[i];
         corners.sort_unstable();
@@ -131,7 +131,9 @@ fn boxes_meet(a: &Flat, b: &Flat) -> bool {
     a.low.cmplt(b.high).all() && b.low.cmplt(a.high).all()
 }
 
-/// Area of what is left of one triangle after cutting it by the sides of the other (Sutherland and Hodgman 1974).
+/// Area of the intersection of two triangles: one is clipped at the sides of the other.
+///
+/// Source: Sutherland and Hodgman 1974, "Reentrant Polygon Clipping".
 fn common_area(subject: [DVec2; 3], clip: [DVec2; 3]) -> f64 {
     let mut polygon = subject.to_vec();
     for side in 0..3 {

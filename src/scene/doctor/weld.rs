@@ -1,10 +1,10 @@
-//! Triangles as their shape has them: corners at exactly equal positions are one vertex.
+//! Triangles whose corners at exactly equal positions are one vertex, whatever their normals and texture coordinates.
 
 use glam::Vec3;
 
 use crate::scene::Scene;
 
-/// Welded front triangles of a scene; the backs that a bake writes out are skipped.
+/// Welded front triangles of a scene; backs that a bake wrote are left out.
 pub(super) struct Welded {
     /// Positions `[w]`, metres.
     pub positions: Vec<Vec3>,

@@ -1,32 +1,18 @@
 //! Walks through small worlds of rectangles.
 
-use glam::{Vec2, Vec4};
-
 use super::*;
-use crate::base::ids::{InstanceId, MaterialId};
-use crate::scene::{Scene, Triangle, Vertex};
+use crate::scene::{Material, SceneBuilder};
 
 const FRAME: f32 = 1.0 / 60.0;
 
 /// Quads, corner by corner.
 fn world(quads: &[[Vec3; 4]]) -> Collider {
-    let mut scene = Scene::default();
+    let mut builder = SceneBuilder::default();
+    let grey = builder.material(Material::diffuse(Vec3::splat(0.5)));
     for &quad in quads {
-        let first = scene.vertices.len() as u32;
-        scene.vertices.extend(quad.map(|position| Vertex {
-            position,
-            normal: Vec3::Y,
-            uv: [Vec2::ZERO; 2],
-            colour: Vec4::ONE,
-        }));
-        scene.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|corners| Triangle {
-            vertices: corners.map(|corner| first + corner),
-            material: MaterialId(0),
-            instance: InstanceId(0),
-            is_back_side: false,
-        }));
+        builder.quad(quad, grey);
     }
-    Collider::new(&scene)
+    Collider::new(&builder.build())
 }
 
 /// A level rectangle at height `y`.

@@ -120,11 +120,7 @@ mod tests {
     fn scene_with_points(intensities: &[f32]) -> Scene {
         let light = |&candela: &f32| Light {
             name: format!("lamp {candela}"),
-            kind: LightKind::Point { position: Vec3::ZERO },
-            intensity: Vec3::splat(candela),
-            range: None,
-            profile: None,
-            group: GroupId(0),
+            ..Light::point(Vec3::ZERO, Vec3::splat(candela))
         };
         Scene { lights: intensities.iter().map(light).collect(), ..Scene::default() }
     }

@@ -11,13 +11,12 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::punctual::MAX_INTENSITY;
-use crate::base::ids::GroupId;
+use crate::scene::Light;
 use crate::scene::gltf::error::Cause;
 use crate::scene::gltf::file::document::Document;
 use crate::scene::gltf::file::resource;
 use crate::scene::gltf::node::frame::frame;
 use crate::scene::photometry::{self, Photometry, Profile};
-use crate::scene::{self, LightKind};
 
 /// Name of the extension.
 pub(crate) const EXTENSION: &str = "EXT_lights_ies";
@@ -111,7 +110,7 @@ pub(crate) fn placed(
     factor: Vec3,
     name: &str,
     world_from_node: DAffine3,
-) -> Result<Option<scene::Light>, Cause> {
+) -> Result<Option<Light>, Cause> {
     let intensity = factor * photometry.peak();
     if !intensity.is_finite() || intensity.max_element() > MAX_INTENSITY {
         return Err(Cause::NotFinite(format!("the intensity of light {name:?}")));
@@ -119,10 +118,9 @@ pub(crate) fn placed(
     if intensity == Vec3::ZERO {
         return Ok(None);
     }
-    let kind = LightKind::Point { position: world_from_node.translation.as_vec3() };
     let world_from_light = DQuat::from_mat3(&frame(world_from_node)).normalize().as_quat();
     let profile = Some(Profile { photometry, world_from_light });
-    Ok(Some(scene::Light { name: name.to_owned(), kind, intensity, range: None, profile, group: GroupId(0) }))
+    Ok(Some(Light { name: name.to_owned(), profile, ..Light::point(world_from_node.translation.as_vec3(), intensity) }))
 }
 
 #[cfg(test)]

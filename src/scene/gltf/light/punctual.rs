@@ -1,13 +1,12 @@
 //! KHR_lights_punctual: point, spot and directional lights of the file, placed in the world.
 
 use glam::{DAffine3, Vec3};
-use gltf::json::extensions::scene::khr_lights_punctual::{Light, Type as LightType};
+use gltf::json::extensions::scene::khr_lights_punctual::Type as LightType;
 use gltf::json::validation::Checked;
 
-use crate::base::ids::GroupId;
 use crate::scene::gltf::error::Cause;
 use crate::scene::gltf::node::frame::frame;
-use crate::scene::{self, LightKind};
+use crate::scene::{Light, LightKind};
 
 pub(crate) use gltf::json::extensions::scene::khr_lights_punctual::Light as LightDefinition;
 
@@ -15,7 +14,11 @@ pub(crate) use gltf::json::extensions::scene::khr_lights_punctual::Light as Ligh
 pub(crate) const MAX_INTENSITY: f32 = 1e15;
 
 /// A light at its place, in group 0 until groups are made; none where it is dark.
-pub(crate) fn placed(definition: &Light, name: &str, world_from_node: DAffine3) -> Result<Option<scene::Light>, Cause> {
+pub(crate) fn placed(
+    definition: &LightDefinition,
+    name: &str,
+    world_from_node: DAffine3,
+) -> Result<Option<Light>, Cause> {
     let intensity = (Vec3::from(definition.color) * definition.intensity).max(Vec3::ZERO);
     let is_sensible = definition.intensity.is_finite() && Vec3::from(definition.color).is_finite();
     if !is_sensible || intensity.max_element() > MAX_INTENSITY {
@@ -35,11 +38,11 @@ pub(crate) fn placed(definition: &Light, name: &str, world_from_node: DAffine3) 
         LightType::Spot => spot(definition, position, direction),
     };
     let range = definition.range.filter(|&range| range > 0.0 && range.is_finite());
-    Ok(Some(scene::Light { name: name.to_owned(), kind, intensity, range, profile: None, group: GroupId(0) }))
+    Ok(Some(Light { name: name.to_owned(), range, ..Light::new(kind, intensity) }))
 }
 
 /// Angles outside the extension's limits are brought inside.
-fn spot(definition: &Light, position: Vec3, direction: Vec3) -> LightKind {
+fn spot(definition: &LightDefinition, position: Vec3, direction: Vec3) -> LightKind {
     let default_outer = std::f32::consts::FRAC_PI_4;
     let (inner, outer) =
         definition.spot.as_ref().map_or((0.0, default_outer), |spot| (spot.inner_cone_angle, spot.outer_cone_angle));

@@ -71,18 +71,11 @@ mod tests {
     use glam::Vec3;
 
     use super::*;
-    use crate::scene::{Light, LightKind, Material};
+    use crate::scene::{Light, Material};
 
     /// A scene with one light and one glowing material, both of this file.
     fn assigned(json: &str) -> Option<Scene> {
-        let light = Light {
-            name: "lamp".to_owned(),
-            kind: LightKind::Point { position: Vec3::ZERO },
-            intensity: Vec3::ONE,
-            range: None,
-            profile: None,
-            group: GroupId(0),
-        };
+        let light = Light::point(Vec3::ZERO, Vec3::ONE);
         let glowing = Material { emission: Vec3::ONE, ..Material::default() };
         let mut scene = Scene { lights: vec![light], materials: vec![glowing], ..Scene::default() };
         let root = Root::from_str(json).expect("glTF");

@@ -17,7 +17,7 @@ use crate::bake::Quality;
 use crate::base::progress::Stage;
 use crate::patch::MeshSettings;
 use crate::render::Shading;
-use crate::scene::doctor::Place;
+use crate::scene::doctor::Location;
 use crate::scene::{Scene, builtin};
 use crate::viewer::advice::Advice;
 use crate::viewer::camera::Eye;
@@ -281,7 +281,7 @@ fn trouble_is_shown_until_it_is_closed() {
 fn advice_stands_before_what_to_do() {
     static ADVICE: std::sync::OnceLock<Vec<Advice>> = std::sync::OnceLock::new();
     let advice = ADVICE.get_or_init(|| {
-        let place = Place { lines: vec![[Vec3::ZERO, Vec3::X]] };
+        let place = Location { lines: vec![[Vec3::ZERO, Vec3::X]] };
         vec![Advice { text: "open edges: 3; close gaps between walls".to_owned(), places: vec![place; 2] }]
     });
     let mut desk = desk(Facts { scene: SceneFacts { advice, ..baked().scene }, ..baked() });

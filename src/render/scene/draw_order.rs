@@ -2,31 +2,31 @@
 
 use wgpu::util::DeviceExt;
 
-use super::buffers::{Batch, Faces};
-use super::view::Chunk;
+use super::draw_batch::{Chunk, DrawBatch, Faces};
 use crate::base::ids::TriangleId;
 use crate::gpu::Gpu;
 use crate::scene::chunks::{CHUNK, chunk_bounds, spatial_order};
 use crate::scene::{AlphaMode, Scene, Triangle};
 
 /// Triangles in the order of drawing.
-pub(super) struct Order {
-    pub batches: Vec<Batch>,
+pub(super) struct DrawOrder {
+    pub batches: Vec<DrawBatch>,
     pub chunks: Vec<Chunk>,
     pub triangles: Vec<TriangleId>,
 }
 
-/// Which of some triangles are drawn, and which of these have their light in tiles.
-pub(super) struct Drawn<'a> {
+/// Triangles of a mesh, some of which have their light in tiles.
+pub(super) struct MeshTriangles<'a> {
     /// Triangles of a scene's vertices and materials.
     pub triangles: &'a [Triangle],
-    /// The first of them have their light in tiles, and these are so many.
+    /// Number of triangles, the first of them, whose light is in tiles.
     pub num_tiled: usize,
 }
 
-impl Drawn<'_> {
-    /// Sorts the triangles that are shown by material, those that blend last, and cuts them into batches and chunks.
-    pub fn order(&self, scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> Order {
+impl MeshTriangles<'_> {
+    /// Sorts the triangles that `is_shown` returns true for by material, those that blend last, and cuts them into batches and
+    /// chunks.
+    pub fn order(&self, scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> DrawOrder {
         let has_twins = self.triangles.iter().any(|triangle| triangle.is_back_side);
         let material_of = |id: &TriangleId| self.triangles[id.index()].material;
         let blends = |id: &TriangleId| scene.materials[material_of(id).index()].alpha_mode == AlphaMode::Blend;
@@ -35,9 +35,9 @@ impl Drawn<'_> {
         let all = (0..self.triangles.len()).map(TriangleId::new);
         let mut triangles: Vec<TriangleId> = all.filter(|id| is_shown(&self.triangles[id.index()])).collect();
         triangles.sort_by_key(key);
-        let mut order = Order { batches: Vec::new(), chunks: Vec::new(), triangles: Vec::new() };
+        let mut order = DrawOrder { batches: Vec::new(), chunks: Vec::new(), triangles: Vec::new() };
         for same in triangles.chunk_by(|a, b| key(a) == key(b)) {
-            // What blends is drawn as the file has it.
+            // Triangles that blend keep the order of the file.
             let same = if blends(&same[0]) { same.to_vec() } else { spatial_order(corners, same.iter().copied()) };
             let start = 3 * order.triangles.len() as u32;
             let triangle_at = |place: usize| start + 3 * place.min(same.len()) as u32;
@@ -51,7 +51,7 @@ impl Drawn<'_> {
                 (true, true) => Faces::FrontOfTwins,
                 (true, false) => Faces::Both,
             };
-            order.batches.push(Batch {
+            order.batches.push(DrawBatch {
                 indices: start..triangle_at(same.len()),
                 material: material_of(&same[0]),
                 alpha_mode: material.alpha_mode,
@@ -68,7 +68,7 @@ impl Drawn<'_> {
     }
 }
 
-impl Order {
+impl DrawOrder {
     /// Three vertices a triangle.
     pub fn indices(&self, vertices: impl Fn(TriangleId) -> [u32; 3]) -> Vec<u32> {
         self.triangles.iter().flat_map(|&id| vertices(id)).collect()
@@ -76,8 +76,8 @@ impl Order {
 }
 
 /// The triangles of a scene in the order of drawing, with three vertices each.
-pub(super) fn order(scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> (Order, Vec<u32>) {
-    let order = Drawn { triangles: &scene.triangles, num_tiled: 0 }.order(scene, is_shown);
+pub(super) fn draw_order(scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> (DrawOrder, Vec<u32>) {
+    let order = MeshTriangles { triangles: &scene.triangles, num_tiled: 0 }.order(scene, is_shown);
     let indices = order.indices(|id| scene.triangles[id.index()].vertices);
     (order, indices)
 }
@@ -92,7 +92,7 @@ pub(super) fn index_buffer(gpu: &Gpu, indices: &[u32]) -> wgpu::Buffer {
 
 #[cfg(test)]
 mod tests {
-    use glam::{Vec2, Vec3, Vec4};
+    use glam::Vec3;
 
     use super::*;
     use crate::base::ids::{InstanceId, MaterialId};
@@ -104,7 +104,7 @@ mod tests {
 
     fn scene_of(modes: &[(AlphaMode, bool)], triangles: Vec<Triangle>) -> Scene {
         let material = |&(alpha_mode, double_sided)| Material { alpha_mode, double_sided, ..Material::default() };
-        let vertex = Vertex { position: Vec3::ZERO, normal: Vec3::Y, uv: [Vec2::ZERO; 2], colour: Vec4::ONE };
+        let vertex = Vertex::new(Vec3::ZERO, Vec3::Y);
         let vertices = vec![vertex; modes.len()];
         Scene { materials: modes.iter().map(material).collect(), vertices, triangles, ..Scene::default() }
     }
@@ -113,16 +113,16 @@ mod tests {
     fn blending_triangles_are_drawn_last() {
         let modes = [(AlphaMode::Blend, false), (AlphaMode::Opaque, false)];
         let scene = scene_of(&modes, vec![triangle(0, false), triangle(1, false), triangle(0, false)]);
-        let (order, indices) = order(&scene, |_| true);
+        let (order, indices) = draw_order(&scene, |_| true);
         assert_eq!(indices, [1, 1, 1, 0, 0, 0, 0, 0, 0]);
         assert_eq!(order.batches.iter().map(|b| b.indices.clone()).collect::<Vec<_>>(), [0..3, 3..9]);
     }
 
     #[test]
-    fn double_sided_triangles_are_culled_only_where_their_twins_exist() {
+    fn double_sided_triangles_are_culled_only_if_their_twins_exist() {
         let modes = [(AlphaMode::Opaque, true), (AlphaMode::Opaque, false)];
         let faces = |triangles| -> Vec<Faces> {
-            order(&scene_of(&modes, triangles), |_| true).0.batches.iter().map(|b| b.faces).collect()
+            draw_order(&scene_of(&modes, triangles), |_| true).0.batches.iter().map(|b| b.faces).collect()
         };
         assert_eq!(faces(vec![triangle(0, false), triangle(1, false)]), [Faces::Both, Faces::Front]);
         assert_eq!(faces(vec![triangle(0, false), triangle(0, true)]), [Faces::FrontOfTwins]);
@@ -131,7 +131,7 @@ mod tests {
     #[test]
     fn chunks_are_the_batches_cut_into_pieces() {
         let scene = builtin::gallery();
-        let (order, indices) = order(&scene, |_| true);
+        let (order, indices) = draw_order(&scene, |_| true);
         assert!(order.chunks.len() > order.batches.len());
         let mut end = 0;
         for chunk in &order.chunks {
