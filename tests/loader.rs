@@ -145,7 +145,7 @@ fn broken_values_are_named() {
     assert_json_error("/nodes/2/extensions", json!({"KHR_lights_punctual": {"light": 5}}), "node 2 refers to light 5");
     assert_json_error("/nodes/0/children", json!([0]), "node 0 occurs twice");
     assert_json_error("/accessors/1/count", json!(4), "accessor 1");
-    assert_json_error("/accessors/0/count", json!(2), "accessor 1: index 2 points at no vertex");
+    assert_json_error("/accessors/0/count", json!(2), "accessor 1: index 2 refers to no vertex");
     assert_json_error("/accessors/0/componentType", json!(1), "accessor 0: unknown component type");
     assert_json_error("/accessors/2/type", json!("MAT3"), "accessor 2: a matrix");
     assert_json_error("/accessors/1/componentType", json!(5126), "accessor 1");

@@ -1,6 +1,6 @@
-//! How large a scene will be, told from the counts in its JSON before anything is allocated.
+//! Limit on the size of a scene, predicted from the counts in the JSON before any memory is allocated.
 //!
-//! Instances multiply: a file of a few kilobytes can ask for more than any memory holds.
+//! Instances multiply: a file of a few kilobytes can describe more triangles than fit into memory.
 
 use gltf::json::Index;
 use gltf::json::accessor::Accessor;
@@ -15,7 +15,10 @@ use super::node::tree::PlacedNode;
 /// Most vertices or triangles of a scene: about 2 GB.
 const MAX_COUNT: u64 = 32_000_000;
 
-/// Refuses a scene with more vertices or triangles than fit, all instances counted.
+/// Checks that the scene, with all instances, stays within the limit.
+///
+/// # Errors
+/// Returns an error if the scene has more than [`MAX_COUNT`] vertices or triangles.
 pub(super) fn check(document: &Document<'_>, nodes: &[PlacedNode<'_>]) -> Result<(), Cause> {
     let mut size = 0u64;
     for placed in nodes {
@@ -32,7 +35,7 @@ pub(super) fn check(document: &Document<'_>, nodes: &[PlacedNode<'_>]) -> Result
     Ok(())
 }
 
-/// The larger of the numbers of vertices and triangles, at most.
+/// Upper bound of the number of vertices and of triangles.
 fn predicted_size(document: &Document<'_>, primitive: &Primitive) -> u64 {
     let count = |index: Index<Accessor>| document.root.get(index).map_or(0, |accessor| accessor.count.0);
     let attribute = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();
@@ -42,7 +45,7 @@ fn predicted_size(document: &Document<'_>, primitive: &Primitive) -> u64 {
         Checked::Valid(Mode::TriangleStrip | Mode::TriangleFan) => corners,
         _ => corners / 3,
     };
-    // Without normals, vertices are split.
+    // Without normals every triangle gets its own vertices, for flat shading.
     let vertices = match attribute(Semantic::Normals) {
         Some(_) => positions.min(corners),
         None => triangles.saturating_mul(3),

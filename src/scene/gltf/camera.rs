@@ -8,7 +8,10 @@ use super::error::Cause;
 use super::node::frame::frame;
 use crate::scene::{Camera, Projection};
 
-/// A camera at its place; scale and mirroring of its node are ignored.
+/// The camera at its position in the world; scale and mirroring of its node are ignored.
+///
+/// # Errors
+/// Returns an error if the camera has no valid projection.
 pub(super) fn placed(definition: &CameraDefinition, name: String, world_from_node: DAffine3) -> Result<Camera, Cause> {
     let missing = || Cause::NotGltf(format!("camera {name:?} lacks its projection"));
     let projection = match definition.type_ {

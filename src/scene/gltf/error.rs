@@ -1,39 +1,39 @@
-//! Why a glTF file could not be loaded, in one line that names the file and the cause.
+//! Errors of loading a glTF file, each a message of one line with the file and the cause.
 
-/// A file that could not become a scene.
+/// A file that cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 #[error("{file}: {cause}")]
 pub struct LoadError {
-    /// The file as the user named it, or the name of built-in bytes.
+    /// The file as the user named it, or the name given with its bytes.
     pub file: String,
-    /// What is wrong with it.
+    /// The reason.
     pub cause: Cause,
 }
 
-/// What is wrong with a file.
+/// Reason why a file cannot be loaded.
 #[derive(Debug, thiserror::Error)]
 pub enum Cause {
-    /// Nothing by that name.
+    /// The file does not exist.
     #[error("there is no such file")]
     NoSuchFile,
-    /// The operating system refuses.
+    /// The operating system reports an error.
     #[error("it cannot be read: {0}")]
     Unreadable(String),
-    /// Neither binary glTF nor JSON.
+    /// The file is neither binary glTF nor JSON.
     #[error("it is not a glTF file: {0}")]
     NotGltf(String),
-    /// Fewer bytes than the header promises.
+    /// The file has fewer bytes than its header states.
     #[error("it is cut off: {found} of {expected} bytes are there")]
     CutOff {
-        /// Bytes that the header promises.
+        /// Bytes that the header states.
         expected: usize,
         /// Bytes in the file.
         found: usize,
     },
-    /// Not glTF 2.
+    /// The version is not glTF 2.
     #[error("it is glTF version {0}; only version 2 can be read (gltf-pipeline converts version 1)")]
     Version(String),
-    /// The file cannot be understood without an extension that we lack.
+    /// The file requires an extension that is not supported.
     #[error("it requires the extension {name}, which is not supported; {hint}")]
     RequiredExtension {
         /// Name in `extensionsRequired`.
@@ -44,22 +44,22 @@ pub enum Cause {
     /// `FILE#SCENE` names no scene of the file.
     #[error("it has no scene {wanted:?}; there is {available}")]
     NoSuchScene {
-        /// What was asked for.
+        /// Name or index after the `#`.
         wanted: String,
-        /// Names of those that exist.
+        /// The scenes of the file.
         available: String,
     },
-    /// An index points at nothing.
+    /// An index refers to an item that does not exist.
     #[error("{user} refers to {kind} {index}, which does not exist")]
     DanglingIndex {
-        /// Who refers.
+        /// The referring item.
         user: String,
-        /// What is referred to.
+        /// Kind of the missing item.
         kind: &'static str,
         /// The index.
         index: usize,
     },
-    /// Data of a buffer cannot be had.
+    /// The bytes of a buffer cannot be read.
     #[error("buffer {buffer}: {problem}")]
     Buffer {
         /// Index of the buffer.
@@ -83,33 +83,33 @@ pub enum Cause {
         /// What is wrong.
         problem: String,
     },
-    /// A part of it contradicts itself or the standard, which the sentence names.
+    /// A part of the file contradicts itself or the standard; the message names it.
     #[error("{0}")]
     Broken(String),
-    /// The variant asked for is not in the file.
+    /// The file has no material variant of the given name.
     #[error("it has no variant {wanted:?}; there is {available}")]
     NoSuchVariant {
-        /// What was asked for.
+        /// Name of the variant.
         wanted: String,
-        /// Names of those that exist.
+        /// Names of the file's variants.
         available: String,
     },
-    /// NaN, infinity, or a number far outside what metres, nit or candela can mean.
-    #[error("{0} is not a finite number of sensible size")]
+    /// A number is NaN, infinite, or implausibly large for its unit.
+    #[error("{0} is not a finite number of plausible size")]
     NotFinite(String),
     /// A node is its own ancestor or has two parents.
     #[error("node {0} occurs twice in the node tree (a loop, or two parents)")]
     NodeTwice(usize),
-    /// The tree is too deep.
+    /// The node tree is too deep.
     #[error("the node tree is deeper than {0} levels")]
     TooDeep(usize),
-    /// More than is sensible to hold in memory.
+    /// The file or the scene exceeds a limit on memory.
     #[error("it is too large: {0}")]
     TooLarge(String),
 }
 
 impl Cause {
-    /// An accessor that cannot be read, and why.
+    /// [`Self::Accessor`] with this problem.
     pub(super) fn accessor(accessor: usize, problem: impl Into<String>) -> Self {
         Self::Accessor { accessor, problem: problem.into() }
     }

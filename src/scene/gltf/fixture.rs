@@ -1,4 +1,4 @@
-//! Small glTF files, made by hand for the tests of this folder.
+//! Small glTF files for the tests of this folder.
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -7,15 +7,15 @@ use serde_json::{Value, json};
 use super::{LoadError, from_slice};
 use crate::scene::Scene;
 
-/// A file in the making; its JSON is open to every test.
+/// A glTF file under construction; tests edit its JSON directly.
 pub struct Fixture {
-    /// All but the buffer.
+    /// The JSON without the buffer.
     pub json: Value,
     bytes: Vec<u8>,
 }
 
 impl Fixture {
-    /// A file with one scene of one node that shows mesh 0, which has one primitive without attributes.
+    /// A file with one scene of one node with mesh 0, which has one primitive without attributes.
     pub fn new() -> Self {
         let json = json!({
             "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -32,7 +32,7 @@ impl Fixture {
         fixture
     }
 
-    /// Its only primitive.
+    /// Primitive 0 of mesh 0.
     pub fn primitive(&mut self) -> &mut Value {
         &mut self.json["meshes"][0]["primitives"][0]
     }
@@ -88,7 +88,7 @@ impl Fixture {
         push(&mut self.json["textures"], json!({"source": source}))
     }
 
-    /// The file as .gltf bytes with an embedded buffer.
+    /// Bytes of a .gltf file with an embedded buffer.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut json = self.json.clone();
         let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&self.bytes));
@@ -96,19 +96,19 @@ impl Fixture {
         json.to_string().into_bytes()
     }
 
-    /// The scene in it.
+    /// Loads the file, which must be valid.
     pub fn load(&self) -> Scene {
         self.try_load().expect("the fixture is valid")
     }
 
-    /// The scene in it, or why there is none.
+    /// Loads the file.
     pub fn try_load(&self) -> Result<Scene, LoadError> {
         from_slice("fixture", &self.to_bytes())
     }
 
-    /// The error of a broken file.
+    /// Message of the error that loading the file returns.
     pub fn error(&self) -> String {
-        self.try_load().expect_err("the fixture is broken").to_string()
+        self.try_load().expect_err("the file must be refused").to_string()
     }
 }
 

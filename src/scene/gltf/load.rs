@@ -1,4 +1,4 @@
-//! From the path or the bytes of a file to a scene, step by step.
+//! The steps from the path or the bytes of a file to a scene.
 
 use std::io::Read as _;
 use std::path::Path;
@@ -19,43 +19,47 @@ use super::scene_choice::{root_nodes, split_scene_name};
 use crate::scene::reflectance::mean_reflectances;
 use crate::scene::{MAX_REFLECTANCE, Scene};
 
-/// What of a file is loaded, where it leaves a choice.
+/// Options of loading.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LoadOptions {
-    /// Name of a material variant (KHR_materials_variants); none for the materials worn without.
+    /// Name of the material variant to use (KHR_materials_variants); `None` for the primitives' default materials.
     pub variant: Option<String>,
 }
 
-/// Loads a .gltf or .glb file; `FILE#NAME` or `FILE#1` chooses one of its scenes by name or index.
+/// Loads a .gltf or .glb file; `FILE#NAME` or `FILE#1` selects one of its scenes by name or index.
 ///
-/// Errors: one line that names the file and the cause.
+/// # Errors
+/// Returns an error if the file cannot be read or is not valid glTF 2.0; its message is one line with the file and the cause.
 pub fn load(path: &Path) -> Result<Scene, LoadError> {
     load_with(path, &LoadOptions::default())
 }
 
-/// As [`load`], with choices.
+/// As [`load`], with options.
 ///
-/// Errors: as [`load`]; there is no such variant.
+/// # Errors
+/// Returns an error as [`load`] does, and if the file has no material variant of the given name.
 pub fn load_with(path: &Path, options: &LoadOptions) -> Result<Scene, LoadError> {
     let (file, wanted) = split_scene_name(path);
     let failed = |cause| LoadError { file: file.display().to_string(), cause };
     let bytes = read_file(&file).map_err(failed)?;
     let name = file.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
-    // A file named without a folder lies in the working one.
+    // The folder of a bare file name is the working directory.
     let folder = file.parent().map(|folder| if folder == Path::new("") { Path::new(".") } else { folder });
     read_scene(name, &bytes, folder, wanted.as_deref(), options).map_err(failed)
 }
 
-/// Loads a scene from the bytes of a file that needs no others, such as a built-in .glb.
+/// Loads a scene from the bytes of a .glb or .gltf file without external files; `name` stands for the file in messages.
 ///
-/// Errors: as [`load`], with `name` for the file.
+/// # Errors
+/// Returns an error as [`load`] does, and if the file refers to an external file.
 pub fn from_slice(name: &str, bytes: &[u8]) -> Result<Scene, LoadError> {
     from_slice_with(name, bytes, &LoadOptions::default())
 }
 
-/// As [`from_slice`], with choices.
+/// As [`from_slice`], with options.
 ///
-/// Errors: as [`load_with`], with `name` for the file.
+/// # Errors
+/// Returns an error as [`from_slice`] does, and if the file has no material variant of the given name.
 pub fn from_slice_with(name: &str, bytes: &[u8], options: &LoadOptions) -> Result<Scene, LoadError> {
     let failed = |cause| LoadError { file: name.to_owned(), cause };
     read_scene(name.to_owned(), bytes, None, None, options).map_err(failed)
@@ -71,7 +75,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, Cause> {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Err(Cause::NoSuchFile),
         _ => {}
     }
-    // A pipe or device has no length that could be looked at before.
+    // The metadata of a pipe or a device has no length, so the limit is applied while reading, too.
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(unreadable)?;
     file.take(resource::MAX_FILE_BYTES).read_to_end(&mut bytes).map_err(unreadable)?;
@@ -105,7 +109,7 @@ fn read_scene(
     Ok(scene)
 }
 
-/// Fills in materials and textures; returns the texture coordinate sets that each material wants.
+/// Reads materials and textures into the scene; returns the two texture coordinate sets that each material uses `[m]`.
 fn read_materials(document: &Document<'_>, scene: &mut Scene) -> Result<Vec<[u32; 2]>, Cause> {
     let mut reader = MaterialReader::new(document);
     scene.materials = reader.read_all()?;
@@ -115,7 +119,7 @@ fn read_materials(document: &Document<'_>, scene: &mut Scene) -> Result<Vec<[u32
     Ok(reader.uv_sets)
 }
 
-/// Names of the light definitions: the punctual ones, then the photometric files.
+/// Names of the file's light definitions: punctual lights first, then photometric files.
 fn light_names(root: &Root) -> Vec<Option<String>> {
     let extension = root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
     let punctual = extension.map_or(&[][..], |lights| &lights.lights).iter().map(|light| light.name.clone());
@@ -123,7 +127,7 @@ fn light_names(root: &Root) -> Vec<Option<String>> {
     punctual.chain(photometric).collect()
 }
 
-/// The user should know where transport clamps what the file says.
+/// Adds a note for each material whose reflectance is clamped in light transport.
 fn note_bright_materials(scene: &mut Scene) {
     for (m, reflectance) in mean_reflectances(scene).into_iter().enumerate() {
         if reflectance > MAX_REFLECTANCE {
@@ -142,7 +146,7 @@ mod tests {
     use super::super::fixture::Fixture;
 
     #[test]
-    fn indices_that_point_nowhere_say_who_and_what() {
+    fn a_dangling_index_is_reported_with_the_referring_item() {
         let cases = [
             ("/scene", json!(7), "the file refers to scene 7"),
             ("/scenes/0/nodes/0", json!(7), "the node tree refers to node 7"),

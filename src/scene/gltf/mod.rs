@@ -1,12 +1,21 @@
-//! The only place that knows glTF input: a .gltf or .glb file becomes a validated [`Scene`](crate::scene::Scene).
+//! The glTF loader: reads a .gltf or .glb file into a validated [`Scene`](crate::scene::Scene).
 //!
-//! The route, which `load` follows: bytes -> `file` (container, buffers, accessors, checked look-ups) -> `node` (the tree,
-//! flattened, held against a `budget`) -> `material` and `texture` -> `populate` (`mesh`: attributes in their rest pose,
-//! placed in the world; `light` and `camera`) -> light groups. The gltf crate gives the typed JSON only: its accessors and
-//! its importer can panic on broken files, ours check every range, so that any file either loads or ends in one
-//! [`LoadError`].
+//! `load` runs these steps, a room each:
 //!
-//! Deliberately absent: animation. Skins and morph targets are shown as the file's nodes and weights place them.
+//! | room | step |
+//! |---|---|
+//! | `file` | bytes to JSON, buffers and accessors; checks every index and every range |
+//! | `node` | the node tree to a list of nodes with their world transforms; `budget` bounds the size of the scene |
+//! | `material`, `texture` | materials, variants, decoded images |
+//! | `mesh` | primitives to triangles in their rest pose, placed in the world |
+//! | `light`, `camera` | lights, cameras, light groups |
+//!
+//! `populate` adds what the nodes carry, `scene_choice` selects one of the file's scenes.
+//!
+//! Of the gltf crate only the typed JSON is used: its accessors and its importer can panic on broken files. Here every
+//! file either loads or yields one [`LoadError`].
+//!
+//! Not supported: animation. Skins and morph targets are shown in the pose of the file's nodes and weights.
 //!
 //! Source: Khronos Group, "glTF 2.0 Specification" (ISO/IEC 12113:2022) and its extension registry.
 

@@ -1,4 +1,4 @@
-//! What hangs on the nodes: meshes are placed, lights and cameras taken along; the tree is kept beside them.
+//! Adds what the nodes carry to the scene: meshes, lights and cameras. The node tree is kept beside them.
 
 use gltf::json::Index;
 
@@ -10,7 +10,7 @@ use super::mesh::meshes::Meshes;
 use super::node::tree::{PlacedNode, name_of, transform};
 use crate::scene::{Light, NamedNode, Scene};
 
-/// Fills a scene whose materials are there already.
+/// Fills a scene that already has its materials.
 pub(super) struct Population<'a> {
     document: &'a Document<'a>,
     scene: Scene,
@@ -20,7 +20,7 @@ pub(super) struct Population<'a> {
 }
 
 impl<'a> Population<'a> {
-    /// Ready to add what hangs on `nodes`.
+    /// Starts with the tree of `nodes`.
     pub fn new(document: &'a Document<'a>, nodes: &[PlacedNode<'_>], mut scene: Scene, meshes: Meshes<'a>) -> Self {
         let named = |placed: &PlacedNode<'_>| {
             let name = placed.node.name.clone().unwrap_or_default();
@@ -30,7 +30,7 @@ impl<'a> Population<'a> {
         Self { document, scene, light_definitions: Vec::new(), meshes, profiles: photometric::Profiles::new(document) }
     }
 
-    /// Adds what hangs on the node at place `place` of the list.
+    /// Adds what the node `placed` carries; `place` is its index in [`Scene::nodes`].
     pub fn add(&mut self, place: usize, placed: &PlacedNode<'_>) -> Result<(), Cause> {
         let PlacedNode { index, node, world_from_node, .. } = *placed;
         let user = || format!("node {index}");
@@ -46,8 +46,8 @@ impl<'a> Population<'a> {
         if let Some(light) = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref()) {
             self.place_light(place, placed, light.light)?;
         }
-        if let Some(carried) = photometric::carried(node, index)? {
-            self.place_photometric_light(place, placed, &carried)?;
+        if let Some(node_light) = photometric::of_node(node, index)? {
+            self.place_photometric_light(place, placed, &node_light)?;
         }
         Ok(())
     }
@@ -70,22 +70,22 @@ impl<'a> Population<'a> {
         &mut self,
         place: usize,
         placed: &PlacedNode<'_>,
-        carried: &photometric::Carried,
+        node_light: &photometric::NodeLight,
     ) -> Result<(), Cause> {
         let definitions = photometric::definitions(&self.document.root);
-        let stated = definitions.get(carried.light).and_then(|definition| definition["name"].as_str());
-        let name = name_of([&placed.node.name, &stated.map(str::to_owned)], "photometric light", carried.light);
-        let photometry = match self.profiles.get(carried.light) {
+        let stated = definitions.get(node_light.light).and_then(|definition| definition["name"].as_str());
+        let name = name_of([&placed.node.name, &stated.map(str::to_owned)], "photometric light", node_light.light);
+        let photometry = match self.profiles.get(node_light.light) {
             Ok(photometry) => photometry,
             Err(problem) => {
                 self.scene.notes.push(format!("photometric file of light {name:?}: {problem}; the light is left out"));
                 return Ok(());
             }
         };
-        let light = photometric::placed(photometry, carried.factor(), &name, placed.world_from_node)?;
+        let light = photometric::placed(photometry, node_light.factor(), &name, placed.world_from_node)?;
         let punctual = self.document.root.extensions.as_ref().and_then(|root| root.khr_lights_punctual.as_ref());
         let num_before = punctual.map_or(0, |punctual| punctual.lights.len());
-        self.keep_light(place, light, &name, num_before + carried.light);
+        self.keep_light(place, light, &name, num_before + node_light.light);
         Ok(())
     }
 
@@ -100,10 +100,10 @@ impl<'a> Population<'a> {
         }
     }
 
-    /// The filled scene with notes on what was passed over, and the light definition behind each of its lights `[l]`.
+    /// The filled scene with notes about what is ignored, and the index of the light definition of each of its lights `[l]`.
     pub fn finish(mut self) -> (Scene, Vec<usize>) {
         if self.scene.lights.iter().any(|light| light.profile.is_some()) {
-            let note = "photometric files are followed in bakes and by rays; --shadows takes such lights to be even";
+            let note = "bakes and rays use the photometric files of lights; --shadows treats these lights as uniform";
             self.scene.notes.push(note.to_owned());
         }
         let counts = [

@@ -1,6 +1,8 @@
-//! Numbers out of accessors, every read within bounds: strides, normalised integers, sparse overlays.
+//! Numbers of accessors, read within checked bounds: strides, normalised integers, sparse substitution.
 //!
-//! Only the rows that a primitive uses are read, because exporters often let a thousand primitives share one buffer.
+//! Only the rows that a primitive uses are read, because a thousand primitives may share one buffer.
+//!
+//! Source: glTF 2.0, section 3.6.2.
 
 use gltf::json::accessor::{Accessor, ComponentType, Type};
 use gltf::json::buffer::View;
@@ -10,10 +12,10 @@ use gltf::json::{self, Index};
 use super::document::Document;
 use crate::scene::gltf::error::Cause;
 
-/// Longest accessor that may exist without any bytes behind it (all zeros but for a sparse overlay).
+/// Most elements of an accessor without a buffer view, whose values are zero except for sparse substitutes.
 const MAX_VIRTUAL_COUNT: usize = 1 << 20;
 
-/// An accessor whose layout is checked: reading any row below `count` stays inside its bytes.
+/// An accessor with a checked layout: every row below `count` lies inside its bytes.
 pub(crate) struct Reader<'a> {
     id: usize,
     count: usize,
@@ -53,12 +55,18 @@ impl<'a> Rows<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Checks the layout of accessor `index`.
+    /// Checks the layout of accessor `index`; `user` names the item that refers to it.
+    ///
+    /// # Errors
+    /// Returns an error if the accessor does not exist or does not fit its buffer view.
     pub fn new(document: &'a Document<'_>, index: Index<Accessor>, user: impl Fn() -> String) -> Result<Self, Cause> {
         Self::over(document, index, None, user)
     }
 
-    /// As [`Self::new`], over `decoded` bytes instead of those of the file where there are any.
+    /// As [`Self::new`], but reads the `decoded` bytes, if there are any, instead of those of the file.
+    ///
+    /// # Errors
+    /// Returns an error as [`Self::new`] does.
     pub fn over(
         document: &'a Document<'_>,
         index: Index<Accessor>,
@@ -82,11 +90,11 @@ impl<'a> Reader<'a> {
             overlay: None,
         };
         if matches!(shape, Type::Mat2 | Type::Mat3) {
-            return Err(failed("a matrix where a vector or number is wanted"));
+            return Err(failed("a matrix where a vector or a number is required"));
         }
         if let Some(bytes) = decoded {
             let rows = Rows::new(bytes, 0, reader.size(), reader.size(), count);
-            reader.base = Some(rows.ok_or_else(|| failed("too few values were compressed"))?);
+            reader.base = Some(rows.ok_or_else(|| failed("its compressed data has too few values"))?);
             return Ok(reader);
         }
         let offset = accessor.byte_offset.unwrap_or_default().0;
@@ -111,21 +119,24 @@ impl<'a> Reader<'a> {
         self.width
     }
 
-    /// Its numbers are integers.
+    /// Whether its numbers are integers.
     pub fn is_integer(&self) -> bool {
         self.component != ComponentType::F32
     }
 
-    /// The same data with integers read as fractions of their largest value, whatever the file says.
+    /// The same accessor with integers read as fractions of their largest value, even if the file does not mark them so.
     pub fn into_fractions(mut self) -> Self {
         self.normalized = true;
         self
     }
 
     /// Elements of the given rows (ascending) as vectors of `N` numbers.
+    ///
+    /// # Errors
+    /// Returns an error if the elements have not `N` components, a row is out of range, or a number is not finite.
     pub fn vectors<const N: usize>(&self, rows: &[u32]) -> Result<Vec<[f32; N]>, Cause> {
         if self.width != N {
-            return Err(self.failed(format!("elements of {} numbers where {N} are wanted", self.width)));
+            return Err(self.failed(format!("elements of {} numbers where {N} are required", self.width)));
         }
         let size = self.component.size();
         let decode = |bytes: &[u8]| -> [f32; N] {
@@ -140,6 +151,9 @@ impl<'a> Reader<'a> {
     }
 
     /// All elements as vertex indices.
+    ///
+    /// # Errors
+    /// Returns an error if the elements are not single unsigned integers.
     pub fn indices(&self) -> Result<Vec<u32>, Cause> {
         if self.width != 1 || !matches!(self.component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32) {
             return Err(self.failed("indices must be single unsigned integers".to_owned()));
@@ -150,7 +164,7 @@ impl<'a> Reader<'a> {
 
     fn read<T: Copy>(&self, rows: &[u32], zero: T, decode: impl Fn(&[u8]) -> T) -> Result<Vec<T>, Cause> {
         if let Some(&last) = rows.last().filter(|&&row| row as usize >= self.count) {
-            return Err(self.failed(format!("row {last} is wanted, but there are only {}", self.count)));
+            return Err(self.failed(format!("row {last} is read, but there are only {}", self.count)));
         }
         let mut values: Vec<T> = match &self.base {
             Some(base) => rows.iter().map(|&row| decode(base.get(row as usize))).collect(),

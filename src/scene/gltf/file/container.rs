@@ -1,7 +1,7 @@
-//! Bytes of a file to typed JSON and the binary chunk.
+//! Splits the bytes of a file into typed JSON and the binary chunk.
 //!
-//! The gltf crate's own entry points are not used where they can panic (a header length below 12) or are stricter than
-//! the standard (a scene without nodes, an integer written as `3.0`, a broken animation that we never play).
+//! The entry points of the gltf crate are not used if they can panic (a header length below 12) or are stricter than the
+//! standard (a scene without nodes, an integer written as `3.0`, an invalid animation, which is never played here).
 
 use gltf::Glb;
 use gltf::json::Root;
@@ -11,17 +11,20 @@ use crate::scene::gltf::error::Cause;
 
 const GLB_HEADER_BYTES: usize = 12;
 
-/// What a file consists of.
+/// The parts of a file.
 pub(crate) struct Parts<'a> {
     /// Typed JSON.
     pub root: Root,
-    /// Its skins, untyped: a broken one matters only where a mesh wears it.
+    /// Its skins as untyped JSON: an invalid skin is an error only if a mesh uses it.
     pub skins: Vec<Value>,
     /// The binary chunk of a .glb.
     pub blob: Option<&'a [u8]>,
 }
 
-/// Takes a .gltf or .glb file apart.
+/// Splits a .gltf or .glb file into its parts.
+///
+/// # Errors
+/// Returns an error if the file is no glTF 2 or is cut off.
 pub(crate) fn split(bytes: &[u8]) -> Result<Parts<'_>, Cause> {
     if !bytes.starts_with(b"glTF") {
         return parse_json(bytes, None);
@@ -46,7 +49,7 @@ fn split_glb(bytes: &[u8]) -> Result<Glb<'_>, Cause> {
     if expected > bytes.len() {
         return Err(Cause::CutOff { expected, found: bytes.len() });
     }
-    // Cut to its length, a header that promises less than itself is too short to be read.
+    // Limited to the stated length, a file whose header states less than the header's own size is refused as too short.
     Glb::from_slice(&bytes[..expected]).map_err(|error| match error {
         gltf::Error::Binary(gltf::binary::Error::Io(_)) => Cause::NotGltf("its last chunk is cut off".to_owned()),
         error => Cause::NotGltf(format!("broken .glb container: {error}")),
@@ -71,7 +74,7 @@ fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
-/// Takes away what the typed model refuses although the standard allows it or we never read it.
+/// Removes or fills in what the typed model refuses although the standard allows it or the loader ignores it.
 fn be_lenient(json: &mut Value) {
     if let Value::Object(root) = json {
         root.remove("animations");

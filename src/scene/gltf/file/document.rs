@@ -1,4 +1,4 @@
-//! A parsed file with its buffers, and checked look-ups in it: no index of the file is used without one.
+//! A parsed file with its buffers. [`Document::find`] checks every index of the file before it is used.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -13,24 +13,27 @@ use super::container::{self, Parts};
 use super::{meshopt, resource};
 use crate::scene::gltf::error::Cause;
 
-/// Most bytes of all buffers that lie outside the file itself: many buffers may name one file.
+/// Most bytes of all external buffers together; many buffers may name the same file.
 const MAX_EXTERNAL_BYTES: u64 = 4 << 30;
 
-/// Typed JSON and the bytes it speaks of.
+/// Typed JSON and the bytes of its buffers.
 pub(crate) struct Document<'a> {
-    /// The JSON, not validated: look up through [`Document::find`].
+    /// The JSON; its indices are not validated, so items are looked up through [`Document::find`].
     pub root: Root,
-    /// Where external files lie.
+    /// Folder of external files; `None` if the file is only bytes.
     pub folder: Option<&'a Path>,
-    /// Skins as the file tells them.
+    /// Skins as untyped JSON.
     pub skins: Vec<Value>,
     buffers: Vec<Result<Cow<'a, [u8]>, String>>,
-    /// Decompressed buffer views `[view]`, each made when it is first read.
+    /// Decompressed buffer views `[view]`, each decompressed when it is first read.
     decompressed: Vec<OnceLock<Result<Vec<u8>, String>>>,
 }
 
 impl<'a> Document<'a> {
-    /// Parses a file and fetches its buffers; a buffer that cannot be had is an error only when it is used.
+    /// Parses a file and reads its buffers. A buffer that cannot be read is an error only when it is used.
+    ///
+    /// # Errors
+    /// Returns an error if the file is no glTF 2 or is cut off.
     pub fn parse(bytes: &'a [u8], folder: Option<&'a Path>) -> Result<Self, Cause> {
         let Parts { root, skins, blob } = container::split(bytes)?;
         let mut left = MAX_EXTERNAL_BYTES;
@@ -43,7 +46,10 @@ impl<'a> Document<'a> {
         Ok(Self { root, folder, skins, buffers, decompressed })
     }
 
-    /// The item that `user` refers to.
+    /// The item at `index`; `user` names the item that refers to it, for the message.
+    ///
+    /// # Errors
+    /// Returns an error if no such item exists.
     pub fn find<T>(&self, index: Index<T>, kind: &'static str, user: impl Fn() -> String) -> Result<&T, Cause>
     where
         Root: Get<T>,
@@ -51,7 +57,10 @@ impl<'a> Document<'a> {
         self.root.get(index).ok_or_else(|| Cause::DanglingIndex { user: user(), kind, index: index.value() })
     }
 
-    /// Bytes of a buffer view, and its stride where it gives one.
+    /// Bytes of a buffer view, and its stride if it states one.
+    ///
+    /// # Errors
+    /// Returns an error if the view or its buffer does not exist, cannot be read or decompressed, or is too short.
     pub fn view(&self, index: Index<View>, user: impl Fn() -> String) -> Result<(&[u8], Option<usize>), Cause> {
         let view = self.find(index, "buffer view", user)?;
         let stride = view.byte_stride.map(|stride| stride.0).filter(|&stride| stride > 0);
@@ -72,7 +81,7 @@ impl<'a> Document<'a> {
         stream.decode(bytes).map_err(failed)
     }
 
-    /// Bytes of a buffer that `view` speaks of.
+    /// The range of a buffer to which `view` refers.
     fn slice(
         &self,
         buffer: Index<gltf::json::Buffer>,

@@ -1,11 +1,11 @@
-//! Which extensions we understand, which we may pass over, and what to do about the rest.
+//! The supported extensions, those that can be ignored, and the check of the extensions that a file requires.
 
 use gltf::json::Root;
 
 use crate::scene::gltf::error::Cause;
 
-/// Read in full.
-const UNDERSTOOD: [&str; 17] = [
+/// Extensions that are supported in full.
+const SUPPORTED: [&str; 17] = [
     "EXT_lights_ies",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
@@ -25,7 +25,7 @@ const UNDERSTOOD: [&str; 17] = [
     "KHR_texture_transform",
 ];
 
-/// Leave geometry and diffuse light as they are, so even a file that requires them is read without them.
+/// Extensions that change neither geometry nor diffuse light; a file that requires them is read without them.
 const HARMLESS: [&str; 10] = [
     "KHR_animation_pointer",
     "KHR_materials_anisotropy",
@@ -39,21 +39,24 @@ const HARMLESS: [&str; 10] = [
     "KHR_xmp_json_ld",
 ];
 
-/// Refuses a file that requires what we lack, and returns a note about what is passed over.
+/// Checks the required extensions, and returns a note about extensions that are ignored.
+///
+/// # Errors
+/// Returns an error if the file requires an extension that is neither supported nor harmless.
 pub(crate) fn check(root: &Root) -> Result<Option<String>, Cause> {
     for name in &root.extensions_required {
-        if !UNDERSTOOD.contains(&name.as_str()) && !HARMLESS.contains(&name.as_str()) {
+        if !SUPPORTED.contains(&name.as_str()) && !HARMLESS.contains(&name.as_str()) {
             return Err(Cause::RequiredExtension { name: name.escape_debug().to_string(), hint: hint(name) });
         }
     }
-    let mut ignored: Vec<_> = root.extensions_used.iter().filter(|name| !UNDERSTOOD.contains(&name.as_str())).collect();
+    let mut ignored: Vec<_> = root.extensions_used.iter().filter(|name| !SUPPORTED.contains(&name.as_str())).collect();
     ignored.sort_unstable();
     ignored.dedup();
     let names: Vec<_> = ignored.iter().map(|name| name.escape_debug().to_string()).collect();
     Ok((!names.is_empty()).then(|| format!("these extensions are ignored: {}", names.join(", "))))
 }
 
-/// How to turn a file that requires an extension into one that does not.
+/// Advice: how to convert a file that requires an extension into one that does not.
 pub(crate) fn hint(name: &str) -> &'static str {
     match name {
         "EXT_texture_avif" => "convert its textures with: gltf-transform png IN.glb OUT.glb --formats \"*\"",
@@ -75,13 +78,13 @@ mod tests {
     }
 
     #[test]
-    fn what_we_cannot_decode_is_refused_with_a_way_out() {
+    fn a_required_unsupported_extension_is_refused_with_advice() {
         let error = check(&root("EXT_texture_avif", "")).expect_err("we cannot decode it").to_string();
         assert!(error.contains("EXT_texture_avif") && error.contains("gltf-transform png"), "{error}");
     }
 
     #[test]
-    fn optional_unknown_extensions_are_noted() {
+    fn an_optional_unsupported_extension_is_noted() {
         let note = check(&root("KHR_mesh_quantization", "ACME_fog")).expect("loads").expect("a note");
         assert!(note.contains("ACME_fog"));
     }

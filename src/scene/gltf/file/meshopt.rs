@@ -1,19 +1,19 @@
-//! Buffer views that meshoptimizer compressed (EXT_meshopt_compression, KHR_meshopt_compression).
+//! Decompression of buffer views (EXT_meshopt_compression, KHR_meshopt_compression).
 //!
-//! Source: the extensions' specifications; the decoder is meshoptimizer's own.
+//! Source: the extensions' specifications; meshoptimizer's own decoder is used.
 
 use gltf::json::buffer::View;
 use serde::Deserialize;
 use serde_json::Value;
 
-/// Both spell the same; the later one also knows colours and a second vertex format.
+/// Names of the extension. Both have the same JSON; the second one adds a colour filter and a second vertex format.
 pub(crate) const EXTENSIONS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// Most bytes that a byte of a stream can stand for: the shortest block of vertices says in two bits that 256 bytes of
-/// one channel are zero. What promises more is not a stream, and is refused before memory is asked for.
+/// Most bytes that one byte of a stream can decode to: two bits of the shortest vertex block encode 256 zero bytes of one
+/// channel. A stream that claims more is refused before memory is allocated.
 const MAX_EXPANSION: usize = 1024;
 
-/// Bytes of a row of vertices, a multiple of four.
+/// Largest vertex size, bytes; a vertex size is a multiple of four.
 const MAX_STRIDE: usize = 256;
 
 /// The extension of a buffer view, if it has one.
@@ -22,16 +22,16 @@ pub(crate) fn extension_of(view: &View) -> Option<&Value> {
     EXTENSIONS.iter().find_map(|name| extensions.others.get(*name))
 }
 
-/// Where compressed bytes lie and what they are.
+/// Location and format of compressed bytes.
 #[derive(Deserialize)]
 #[serde(rename_all = "camelCase")]
 pub(crate) struct Stream {
     /// Buffer with the compressed bytes.
     pub buffer: u32,
-    /// Where they begin.
+    /// Offset of the first byte.
     #[serde(default)]
     pub byte_offset: u64,
-    /// How many there are.
+    /// Number of compressed bytes.
     pub byte_length: u64,
     byte_stride: usize,
     count: usize,
@@ -59,7 +59,7 @@ enum Filter {
     Color,
 }
 
-/// A row of W words, as the decoder wants it.
+/// A row of `W` words: the decoder requires the vertex size as a type.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
 struct Row<const W: usize>([u32; W]);
@@ -72,9 +72,12 @@ impl<const W: usize> Default for Row<W> {
 
 impl Stream {
     /// Reads the extension's JSON.
+    ///
+    /// # Errors
+    /// Returns an error if the JSON is invalid or stride and count do not fit the mode.
     pub fn parse(extension: &Value) -> Result<Self, String> {
         let stream =
-            Self::deserialize(extension).map_err(|error| format!("its compression is not told well: {error}"))?;
+            Self::deserialize(extension).map_err(|error| format!("its compression extension is invalid: {error}"))?;
         let Self { byte_stride, count, mode, .. } = stream;
         let is_sound = match mode {
             Mode::Attributes => byte_stride % 4 == 0 && (4..=MAX_STRIDE).contains(&byte_stride),
@@ -84,7 +87,10 @@ impl Stream {
         if is_sound { Ok(stream) } else { Err(format!("a stride of {byte_stride} and a count of {count} do not fit")) }
     }
 
-    /// The bytes that `compressed` stands for: `count` rows of `byte_stride`.
+    /// Decodes `compressed` to `count` rows of `byte_stride` bytes.
+    ///
+    /// # Errors
+    /// Returns an error if the stream is invalid or claims an impossible size.
     pub fn decode(&self, compressed: &[u8]) -> Result<Vec<u8>, String> {
         let size = self.count.checked_mul(self.byte_stride);
         if size.is_none_or(|size| size > (compressed.len() + 1).saturating_mul(MAX_EXPANSION)) {
@@ -104,7 +110,7 @@ impl Stream {
     }
 
     fn undo_filter(&self, bytes: &mut [u8]) -> Result<(), String> {
-        let wrong_stride = || format!("its filter cannot work on rows of {} bytes", self.byte_stride);
+        let wrong_stride = || format!("its filter does not support rows of {} bytes", self.byte_stride);
         match (self.filter, self.byte_stride) {
             (Filter::None, _) => {}
             (Filter::Octahedral, 4) => in_place(bytes, meshopt::decode_filter_oct::<i8>),
@@ -112,7 +118,7 @@ impl Stream {
             (Filter::Quaternion, 8) => in_place(bytes, meshopt::decode_filter_quat),
             (Filter::Color, 4) => in_place(bytes, meshopt::decode_filter_color::<u8>),
             (Filter::Color, 8) => in_place(bytes, meshopt::decode_filter_color::<u16>),
-            // Words are filtered one by one, whatever the length of the row.
+            // The exponential filter acts on single words, so the row length does not matter.
             (Filter::Exponential, _) => in_place(bytes, meshopt::decode_filter_exp::<1>),
             _ => return Err(wrong_stride()),
         }
@@ -120,7 +126,7 @@ impl Stream {
     }
 }
 
-/// Filters rows where they lie in memory aligned for them.
+/// Applies a filter to the rows in a copy that is aligned for them.
 fn in_place<T: bytemuck::Pod>(bytes: &mut [u8], filter: impl Fn(&mut [T])) {
     let mut rows: Vec<T> = bytemuck::pod_collect_to_vec(bytes);
     filter(&mut rows);
@@ -132,7 +138,7 @@ fn bytes_of<T: bytemuck::Pod>(decoded: meshopt::Result<Vec<T>>) -> Result<Vec<u8
     Ok(bytemuck::cast_slice(&rows).to_vec())
 }
 
-/// The decoder wants the length of a row as a type; there are 64 of them.
+/// Decodes vertices; the 64 possible vertex sizes are a type each.
 fn vertices(compressed: &[u8], count: usize, stride: usize) -> Result<Vec<u8>, String> {
     macro_rules! by_words {
         ($($words:literal)*) => {
@@ -159,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn vertices_and_indices_come_back() {
+    fn vertices_and_indices_survive_a_round_trip() {
         let rows: Vec<[u32; 5]> = (0..300).map(|i| [i, 2 * i, 7, i * i, 0]).collect();
         let compressed = meshopt::encode_vertex_buffer(&rows).expect("encodes");
         let decoded = stream("ATTRIBUTES", "NONE", 20, 300).expect("sound").decode(&compressed);
@@ -184,11 +190,11 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_a_stream_is_refused() {
+    fn an_impossible_stream_is_refused() {
         assert!(stream("ATTRIBUTES", "NONE", 6, 1).is_err());
         assert!(stream("TRIANGLES", "NONE", 4, 4).is_err());
         assert!(stream("FOG", "NONE", 4, 3).is_err());
-        let huge = stream("ATTRIBUTES", "NONE", 4, usize::MAX).expect("only told to be huge");
+        let huge = stream("ATTRIBUTES", "NONE", 4, usize::MAX).expect("valid JSON");
         assert!(huge.decode(&[0xa0; 64]).expect_err("too large").contains("cannot hold"));
         let short = stream("ATTRIBUTES", "NONE", 4, 16).expect("sound");
         assert!(short.decode(&[1, 2, 3]).expect_err("garbage").contains("cannot decode"));

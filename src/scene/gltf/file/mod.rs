@@ -1,4 +1,4 @@
-//! A file taken apart: its container, the bytes behind its URIs, its buffer views and accessors, every index checked.
+//! The parts of a file: container, external resources, buffer views, accessors. Every index and every range is checked.
 
 pub(super) mod accessor;
 mod container;

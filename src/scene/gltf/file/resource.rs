@@ -1,4 +1,4 @@
-//! Bytes behind a glTF URI: embedded `data:`, or a file in the scene's folder; nothing else is ever opened.
+//! Bytes of a glTF URI: an embedded `data:` URI, or a file in the scene's folder. No other file is ever opened.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -7,12 +7,15 @@ use base64::engine::DecodePaddingMode;
 use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::percent_decode_str;
 
-/// Largest file that is read.
+/// Largest file that is read, bytes.
 pub(crate) const MAX_FILE_BYTES: u64 = 4 << 30;
 
-/// Bytes of `uri`, which are taken from the `left` ones; `folder` is where the scene lies, none for built-in bytes.
+/// Bytes of `uri`; their number is subtracted from the budget `left`. `folder` is the folder of the scene; `None` if the
+/// scene is only bytes.
 ///
-/// Errors: one sentence that names the URI, for the caller to put into its own error or note.
+/// # Errors
+/// Returns an error if the URI is refused or the file cannot be read. It is one sentence with the URI, which the caller
+/// embeds in its own error or note.
 pub(crate) fn fetch(uri: &str, folder: Option<&Path>, left: &mut u64) -> Result<Vec<u8>, String> {
     let bytes = match uri.strip_prefix("data:") {
         Some(data) => decode_data_uri(data)?,
@@ -30,7 +33,7 @@ fn read_beside(uri: &str, folder: Option<&Path>, left: u64) -> Result<Vec<u8>, S
         return Err(format!("the file {uri:?} is missing (it belongs beside the scene)"));
     }
     let failed = |error: std::io::Error| format!("cannot read {uri:?}: {error}");
-    // A link inside the folder may lead out of it.
+    // A symbolic link inside the folder may lead out of it.
     if !path.canonicalize().map_err(failed)?.starts_with(folder.canonicalize().map_err(failed)?) {
         return Err(refused(uri));
     }
@@ -51,7 +54,7 @@ fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
         .map_err(|error| format!("its data: URI is not valid base64: {error}"))
 }
 
-/// The path inside the scene's folder that a URI names; whatever could lead out of the folder is refused.
+/// The relative path that a URI names; refused if it could lead out of the scene's folder.
 fn relative_path(uri: &str) -> Result<PathBuf, String> {
     let decoded = percent_decode_str(uri).decode_utf8().map_err(|_| format!("{uri:?} is not UTF-8"))?;
     // A colon or backslash means another scheme, a drive, or a Windows path.
@@ -64,7 +67,7 @@ fn relative_path(uri: &str) -> Result<PathBuf, String> {
 }
 
 fn refused(uri: &str) -> String {
-    // A URI may be as long as its author likes; the message is one line to read.
+    // A URI has no maximal length; the message shows its beginning.
     let shown: String = uri.chars().take(80).collect();
     format!("{shown:?} is refused: only files in the scene's own folder and data: URIs are read")
 }
@@ -78,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_read_is_taken_from_what_may_be() {
+    fn bytes_read_are_subtracted_from_the_budget() {
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::write(folder.path().join("a.bin"), b"12345").expect("written");
         let mut left = 8;

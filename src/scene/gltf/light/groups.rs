@@ -1,4 +1,4 @@
-//! Light groups: one for each light definition and each emissive material, so that each can be dimmed after a bake.
+//! Default light groups: one for each light definition and each emissive material, so that each can be dimmed after a bake.
 
 use std::collections::BTreeMap;
 use std::f32::consts::{PI, TAU};
@@ -7,13 +7,13 @@ use crate::base::colour::luminance;
 use crate::base::ids::GroupId;
 use crate::scene::{Light, LightKind, Material, Scene, area_of};
 
-/// Most groups of a scene: each costs memory at every vertex.
+/// Most groups of a scene; each group costs memory at every vertex.
 pub(crate) const MAX_GROUPS: usize = 8;
 
-/// Name of the group for all that has none of its own.
+/// Name of the group of all sources that have no group of their own.
 pub(crate) const OTHERS: &str = "other lights";
 
-/// Something that shines, in the order of groups.
+/// A source of light, in the order of groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Source {
     /// A light definition of the file.
@@ -22,9 +22,9 @@ enum Source {
     Material(usize),
 }
 
-/// Names the groups of a scene and gives every light, and every emissive material in use, the one it belongs to.
+/// Creates the groups of a scene and assigns every light and every used emissive material to its group.
 ///
-/// `definitions[l]` is the light of the file behind the scene's light l; `names` are the names of those definitions.
+/// `definitions[l]` is the index of the light definition of the scene's light l; `names` are the names of the definitions.
 pub(crate) fn assign(scene: &mut Scene, definitions: &[usize], names: &[Option<String>]) {
     let flux = flux_of_sources(scene, definitions);
     let own = sources_with_own_group(&flux);
@@ -49,7 +49,8 @@ pub(crate) fn assign(scene: &mut Scene, definitions: &[usize], names: &[Option<S
     }
 }
 
-/// All of them where there is room; else the brightest, in file order, so that the rest can share the last group.
+/// The sources with a group of their own: all of them if there are enough groups, else those of the largest flux, in file
+/// order; the others share the last group.
 fn sources_with_own_group(flux: &BTreeMap<Source, f32>) -> Vec<Source> {
     let mut sources: Vec<_> = flux.keys().copied().collect();
     if sources.len() > MAX_GROUPS {
@@ -60,7 +61,10 @@ fn sources_with_own_group(flux: &BTreeMap<Source, f32>) -> Vec<Source> {
     sources
 }
 
-/// Luminous flux of everything that shines on the scene, lumen; textures are not counted.
+/// Luminous flux of each source, lumen, without the effect of textures.
+///
+/// Point light: 4 pi I. Spot: 2 pi (1 - cos(outer angle)) I. Directional: E times the area of the disc around the scene.
+/// Emissive material: pi L A, twice for a double-sided one.
 fn flux_of_sources(scene: &Scene, definitions: &[usize]) -> BTreeMap<Source, f32> {
     let cross_section = PI * 0.25 * scene.bounds().size().length_squared();
     let mut flux = BTreeMap::new();
@@ -96,7 +100,7 @@ fn exitance(material: &Material) -> f32 {
     sides * PI * luminance(material.emission)
 }
 
-/// Name of a light definition, or of the first place where it shines.
+/// Name of a light definition, or of its first light in the scene if the definition has none.
 fn light_name(scene: &Scene, definitions: &[usize], names: &[Option<String>], definition: usize) -> String {
     if let Some(Some(name)) = names.get(definition).filter(|name| name.as_ref().is_some_and(|n| !n.trim().is_empty())) {
         return name.clone();
@@ -108,7 +112,7 @@ fn light_name(scene: &Scene, definitions: &[usize], names: &[Option<String>], de
 fn unused_name(name: &str, used: &[String]) -> String {
     let numbered = (2..).map(|n| format!("{name} ({n})"));
     let mut candidates = std::iter::once(name.to_owned()).chain(numbered);
-    candidates.find(|candidate| !used.contains(candidate)).expect("numbers do not end")
+    candidates.find(|candidate| !used.contains(candidate)).expect("there are infinitely many numbers")
 }
 
 #[cfg(test)]
@@ -136,7 +140,7 @@ mod tests {
     }
 
     #[test]
-    fn places_of_one_definition_share_a_group_and_names_are_told_apart() {
+    fn lights_of_one_definition_share_a_group_and_equal_names_are_numbered() {
         let mut scene = scene_with_points(&[1.0, 1.0, 1.0]);
         let names = [Some("lamp".to_owned()), Some("lamp".to_owned())];
         assign(&mut scene, &[1, 0, 1], &names);

@@ -1,4 +1,4 @@
-//! Lights of the file, and the groups in which they are dimmed.
+//! Lights of the file, and the light groups in which they are dimmed.
 
 pub(super) mod groups;
 pub(super) mod photometric;

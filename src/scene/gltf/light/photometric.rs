@@ -1,4 +1,4 @@
-//! EXT_lights_ies: lights that shine as a photometric file tells.
+//! EXT_lights_ies: lights with the intensity distribution of a photometric file.
 //!
 //! Source: the extension's specification; type C photometry only.
 
@@ -24,7 +24,7 @@ pub(crate) const EXTENSION: &str = "EXT_lights_ies";
 /// Largest photometric file, bytes.
 const MAX_BYTES: u64 = 16 << 20;
 
-/// What the root of a file tells of a photometric file.
+/// JSON of a photometric file in the root of the document.
 #[derive(Deserialize)]
 struct Definition {
     uri: Option<String>,
@@ -32,10 +32,10 @@ struct Definition {
     buffer_view: Option<u32>,
 }
 
-/// What a node tells of its light.
+/// JSON of a node's light.
 #[derive(Deserialize)]
-pub(crate) struct Carried {
-    /// Number of the photometric file.
+pub(crate) struct NodeLight {
+    /// Index of the photometric file.
     pub light: usize,
     #[serde(default = "one")]
     multiplier: f32,
@@ -57,21 +57,24 @@ pub(crate) struct Profiles<'a> {
     read: HashMap<usize, Result<Arc<Photometry>, String>>,
 }
 
-/// The light of this kind that a node carries.
-pub(crate) fn carried(node: &Node, index: usize) -> Result<Option<Carried>, Cause> {
+/// The photometric light of a node; `None` if the node has none.
+///
+/// # Errors
+/// Returns an error if the extension is invalid.
+pub(crate) fn of_node(node: &Node, index: usize) -> Result<Option<NodeLight>, Cause> {
     let extension = node.extensions.as_ref().and_then(|extensions| extensions.others.get(EXTENSION));
-    let parsed = extension.map(Carried::deserialize).transpose();
+    let parsed = extension.map(NodeLight::deserialize).transpose();
     parsed.map_err(|error| Cause::Broken(format!("node {index}: {EXTENSION}: {error}")))
 }
 
-/// The photometric files that the root names.
+/// JSON of the document's photometric files.
 pub(crate) fn definitions(root: &Root) -> &[Value] {
     let extension = root.extensions.as_ref().and_then(|extensions| extensions.others.get(EXTENSION));
     extension.and_then(|extension| extension["lights"].as_array()).map_or(&[], Vec::as_slice)
 }
 
-impl Carried {
-    /// Colour times factor per channel; what the intensities of the table are multiplied with.
+impl NodeLight {
+    /// Factor of the photometric intensities: colour times multiplier, per channel.
     pub fn factor(&self) -> Vec3 {
         (Vec3::from(self.color).clamp(Vec3::ZERO, Vec3::ONE) * self.multiplier).max(Vec3::ZERO)
     }
@@ -82,7 +85,10 @@ impl<'a> Profiles<'a> {
         Self { document, read: HashMap::new() }
     }
 
-    /// A photometric file; or one sentence that says why it cannot be had.
+    /// The distribution in photometric file `index`.
+    ///
+    /// # Errors
+    /// Returns an error if the file cannot be read; it is one sentence for the caller to embed in a note.
     pub fn get(&mut self, index: usize) -> Result<Arc<Photometry>, String> {
         let document = self.document;
         let read = || read(document, definitions(&document.root).get(index).ok_or("the file has no such profile")?);
@@ -104,7 +110,11 @@ fn read(document: &Document<'_>, definition: &Value) -> Result<Arc<Photometry>, 
     table.map(Arc::new)
 }
 
-/// A light that shines as a photometric table tells, times `factor`, at its place; in group 0 until groups are made.
+/// The light at its position in the world, with the intensities of a photometric file times `factor`, in group 0 until
+/// groups are assigned; `None` if its intensity is zero.
+///
+/// # Errors
+/// Returns an error if the intensity is not plausible.
 pub(crate) fn placed(
     photometry: Arc<Photometry>,
     factor: Vec3,
@@ -131,11 +141,11 @@ mod tests {
     use crate::scene::Scene;
     use crate::scene::gltf::fixture::Fixture;
 
-    /// Even in all directions below, half as much above.
+    /// Uniform in the lower hemisphere, half as strong in the upper one.
     const TABLE: &str = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 4 1 1 2 0 0 0\n1 1 10\n0 90 90.01 180\n0\n40 40 20 20\n";
 
-    /// A node that looks along -Y, carrying a light of some table.
-    fn scene(table: &str, carried: Value) -> Scene {
+    /// A node rotated so that its -Z is -Y, with a light of this table.
+    fn scene(table: &str, node_light: Value) -> Scene {
         let mut fixture = Fixture::triangle();
         let view = fixture.view(table.as_bytes());
         let profile = json!({"bufferView": view, "mimeType": "application/x-ies-lm-63", "name": "downlight"});
@@ -143,12 +153,12 @@ mod tests {
         fixture.json["extensionsUsed"] = json!([EXTENSION]);
         let half = std::f32::consts::FRAC_1_SQRT_2;
         fixture.json["nodes"][0] = json!({"translation": [1, 2, 3], "rotation": [-half, 0, 0, half], "scale": [3, 3, 3],
-            "extensions": {EXTENSION: carried}});
+            "extensions": {EXTENSION: node_light}});
         fixture.load()
     }
 
     #[test]
-    fn light_follows_the_table_the_factor_and_the_turn_of_the_node() {
+    fn the_intensity_follows_the_table_the_factor_and_the_rotation_of_the_node() {
         let scene = scene(TABLE, json!({"light": 0, "multiplier": 0.5, "color": [1, 0.5, 2]}));
         let light = &scene.lights[0];
         let (below, above) = (light.arrival(Vec3::new(1.0, 0.0, 3.0)), light.arrival(Vec3::new(1.0, 4.0, 3.0)));
@@ -159,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn a_broken_table_or_none_leaves_the_light_out_with_a_note() {
+    fn a_light_without_a_valid_table_is_ignored_with_a_note() {
         for (table, light) in [("nonsense", 0), (TABLE, 7)] {
             let scene = scene(table, json!({"light": light}));
             assert!(scene.lights.is_empty() && scene.notes[0].contains("left out"), "{:?}", scene.notes);

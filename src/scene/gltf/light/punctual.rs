@@ -10,10 +10,13 @@ use crate::scene::{Light, LightKind};
 
 pub(crate) use gltf::json::extensions::scene::khr_lights_punctual::Light as LightDefinition;
 
-/// Highest intensity that is taken for meant, candela or lux.
+/// Highest plausible intensity, candela or lux.
 pub(crate) const MAX_INTENSITY: f32 = 1e15;
 
-/// A light at its place, in group 0 until groups are made; none where it is dark.
+/// The light at its position in the world, in group 0 until groups are assigned; `None` if its intensity is zero.
+///
+/// # Errors
+/// Returns an error if the type is unknown or the intensity is not plausible.
 pub(crate) fn placed(
     definition: &LightDefinition,
     name: &str,
@@ -41,7 +44,7 @@ pub(crate) fn placed(
     Ok(Some(Light { name: name.to_owned(), range, ..Light::new(kind, intensity) }))
 }
 
-/// Angles outside the extension's limits are brought inside.
+/// A spot light; angles are clamped to the limits of the extension.
 fn spot(definition: &LightDefinition, position: Vec3, direction: Vec3) -> LightKind {
     let default_outer = std::f32::consts::FRAC_PI_4;
     let (inner, outer) =
@@ -68,8 +71,8 @@ mod tests {
     }
 
     #[test]
-    fn a_spot_shines_along_minus_z_of_its_node_whatever_the_scale() {
-        // A quarter turn about +X brings -Z to +Y.
+    fn a_spot_points_along_minus_z_of_its_node_whatever_the_scale() {
+        // A quarter turn about +X maps -Z to +Y.
         let half = std::f32::consts::FRAC_1_SQRT_2;
         let node = json!({"translation": [1, 2, 3], "rotation": [half, 0, 0, half], "scale": [2, 3, 4]});
         let light = json!({"type": "spot", "intensity": 10, "color": [1, 0.5, 0], "range": 8,
@@ -89,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn impossible_cones_are_brought_inside_the_limits() {
+    fn invalid_cones_are_clamped_to_the_limits() {
         let light = json!({"type": "spot", "spot": {"innerConeAngle": 3, "outerConeAngle": 2}});
         let LightKind::Spot { inner_angle, outer_angle, .. } = scene_with_light(light, json!({})).lights[0].kind else {
             panic!("not a spot");
@@ -98,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn a_dark_light_is_left_out() {
+    fn a_light_of_zero_intensity_is_ignored() {
         let scene = scene_with_light(json!({"type": "point", "intensity": 0}), json!({}));
         assert!(scene.lights.is_empty() && scene.light_groups.is_empty());
         assert!(scene.notes[0].contains("no intensity"), "{:?}", scene.notes);

@@ -1,7 +1,7 @@
-//! Light groups that a file states itself, in `extras`; bakes and built-in scenes do.
+//! Light groups that a file states in `extras`, as baked files and the built-in scenes do.
 //!
-//! `light_groups` of a glTF scene lists the names in order; `light_group` of a light or of an emissive material names
-//! the one it belongs to.
+//! `light_groups` of a glTF scene lists the names in order; `light_group` of a light or an emissive material is the name of
+//! its group.
 
 use gltf::json::{Extras, Root};
 use serde_json::Value;
@@ -11,10 +11,10 @@ use super::photometric;
 use crate::base::ids::GroupId;
 use crate::scene::Scene;
 
-/// Gives every light and every emissive material the group that the file states; false, with nothing changed, where
-/// it states none or more than there may be.
+/// Assigns every light and every emissive material to the group that the file states. Returns false and changes nothing if
+/// the file states no groups or more than [`MAX_GROUPS`].
 ///
-/// `definitions[l]` is the light of the file behind the scene's light l.
+/// `definitions[l]` is the index of the light definition of the scene's light l.
 pub(crate) fn assign(scene: &mut Scene, definitions: &[usize], root: &Root) -> bool {
     let of_definition = groups_of_lights(root);
     let of_light: Vec<_> = definitions.iter().map(|&d| of_definition.get(d).cloned().flatten()).collect();
@@ -73,7 +73,7 @@ mod tests {
     use super::*;
     use crate::scene::{Light, Material};
 
-    /// A scene with one light and one glowing material, both of this file.
+    /// A scene with one light and one emissive material of this file.
     fn assigned(json: &str) -> Option<Scene> {
         let light = Light::point(Vec3::ZERO, Vec3::ONE);
         let glowing = Material { emission: Vec3::ONE, ..Material::default() };
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn what_states_none_shares_a_group() {
+    fn sources_without_a_stated_group_share_one() {
         let scene = assigned(&file("", r#""light_group": "a""#, "")).expect("groups are stated");
         assert_eq!(scene.light_groups, ["a", OTHERS]);
     }

@@ -1,4 +1,4 @@
-//! Materials of the file: their factors and textures, variants, and what a bake changed.
+//! Materials of the file: factors and textures, variants, and the original material of a baked file.
 
 mod original;
 pub(super) mod reader;

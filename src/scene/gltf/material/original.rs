@@ -1,6 +1,7 @@
-//! What a material of a bake was before it was made to show its light in every viewer.
+//! The original material of a baked file.
 //!
-//! The writing side of this agreement is `baked/gltf/material.rs`.
+//! A baked file shows its light in every glTF viewer, so its materials are changed: `baked/gltf/material.rs` writes the
+//! original values to `paint` in the material's `extras`, and they are read here.
 
 use gltf::json;
 use serde::Deserialize;
@@ -10,19 +11,19 @@ use serde::Deserialize;
 pub(crate) struct OriginalMaterial {
     /// Base colour factor.
     pub base_colour: [f32; 4],
-    /// Both faces reflect; the file has them as triangles of their own.
+    /// Both faces reflect; the file has the back faces as triangles of their own.
     pub double_sided: bool,
-    /// It was unlit before.
+    /// Whether the original material is unlit.
     pub unlit: bool,
-    /// The emissive texture stands in the place of the base colour's.
+    /// Whether the file has the emissive texture in place of the base colour texture.
     #[serde(default)]
     pub shows_emission: bool,
-    /// Base colour texture, where the emissive one took its place.
+    /// Base colour texture, if the emissive one is in its place.
     #[serde(default)]
     pub base_colour_texture: Option<json::texture::Info>,
 }
 
-/// The paint under the light of a baked material; none for any other.
+/// The original of a baked material; `None` for a material that no bake has changed.
 pub(crate) fn of(material: &json::Material) -> Option<OriginalMaterial> {
     let extras: serde_json::Value = serde_json::from_str(material.extras.as_ref()?.get()).ok()?;
     OriginalMaterial::deserialize(extras.get("paint")?).ok()

@@ -1,4 +1,4 @@
-//! glTF materials, reduced to what light needs.
+//! Reads glTF materials, as far as they matter for light.
 
 use glam::{Affine2, Mat2, Vec2, Vec3, Vec4};
 use gltf::json;
@@ -12,10 +12,10 @@ use crate::scene::gltf::file::document::Document;
 use crate::scene::gltf::texture::table::TextureTable;
 use crate::scene::{AlphaMode, Material, Texture, TextureSlot};
 
-/// Highest emission that is taken for meant: far above the sun's disc, 1.6e9 nit.
+/// Highest plausible emitted radiance, nit: far above the disc of the sun, 1.6e9 nit.
 const MAX_RADIANCE: f32 = 1e12;
 
-/// KHR_materials_pbrSpecularGlossiness, as far as it says what is diffuse.
+/// KHR_materials_pbrSpecularGlossiness without its specular part.
 #[derive(Deserialize)]
 #[serde(default, rename_all = "camelCase")]
 struct SpecularGlossiness {
@@ -34,13 +34,13 @@ impl Default for SpecularGlossiness {
 pub(crate) struct MaterialReader<'a> {
     /// The file.
     pub document: &'a Document<'a>,
-    /// Textures met so far.
+    /// Textures used so far.
     pub textures: TextureTable,
-    /// Remarks for the user.
+    /// Messages to the user.
     pub notes: Vec<String>,
-    /// Texture coordinate sets that each material wants in the two places of a vertex `[m]`.
+    /// Texture coordinate sets of each material in the two places of a vertex `[m]`.
     pub uv_sets: Vec<[u32; 2]>,
-    /// Those of the material that is being read.
+    /// Texture coordinate sets of the material that is being read.
     places: [Option<u32>; 2],
 }
 
@@ -59,12 +59,15 @@ impl<'a> Reference<'a> {
 }
 
 impl<'a> MaterialReader<'a> {
-    /// Ready to read the materials of a file.
+    /// Starts without textures.
     pub fn new(document: &'a Document<'a>) -> Self {
         Self { document, textures: TextureTable::default(), notes: Vec::new(), uv_sets: Vec::new(), places: [None; 2] }
     }
 
-    /// All materials of the file, in its order.
+    /// Reads all materials of the file in its order.
+    ///
+    /// # Errors
+    /// Returns an error if a texture does not exist or a factor is not plausible.
     pub fn read_all(&mut self) -> Result<Vec<Material>, Cause> {
         let document = self.document;
         document.root.materials.iter().enumerate().map(|(i, material)| self.read(i, material)).collect()
@@ -112,7 +115,7 @@ impl<'a> MaterialReader<'a> {
         Ok(material)
     }
 
-    /// The diffuse half of a specular-glossiness material replaces the metallic-roughness fallback.
+    /// Replaces the metallic-roughness fallback by the diffuse part of a specular-glossiness material.
     fn take_diffuse(&mut self, material: &mut Material, extension: &serde_json::Value) -> Result<(), Cause> {
         let name = material.name.clone();
         let source = SpecularGlossiness::deserialize(extension).map_err(|error| {
@@ -126,7 +129,7 @@ impl<'a> MaterialReader<'a> {
         Ok(())
     }
 
-    /// The crate's model of a normal texture leaves its texture transform untyped.
+    /// The normal texture with its scale. Its texture transform is untyped in the gltf crate's model.
     fn normal_texture(
         &mut self,
         name: &str,
@@ -145,7 +148,7 @@ impl<'a> MaterialReader<'a> {
         let uv_set = reference.transform.and_then(|transform| transform.tex_coord).unwrap_or(reference.uv_set);
         let Some(place) = self.place_of_uv_set(uv_set) else {
             self.notes.push(format!(
-                "material {material:?}: a texture is left out, for it wants a third set of coordinates, TEXCOORD_{uv_set}"
+                "material {material:?}: a texture is ignored because it uses a third set of coordinates, TEXCOORD_{uv_set}"
             ));
             return Ok(None);
         };
@@ -156,7 +159,8 @@ impl<'a> MaterialReader<'a> {
         Ok(Some(TextureSlot { texture, uv_set: place, transform }))
     }
 
-    /// Where vertices of this material carry a set: sets 0 and 1 in their own place if it is free.
+    /// Place in the vertices of this material of a texture coordinate set: sets 0 and 1 keep their place if it is free.
+    /// `None` if both places are taken by other sets.
     fn place_of_uv_set(&mut self, uv_set: u32) -> Option<usize> {
         let preferred = usize::from(uv_set > 0);
         let is_free = |place: &usize| self.places[*place].is_none_or(|taken| taken == uv_set);
@@ -166,7 +170,9 @@ impl<'a> MaterialReader<'a> {
     }
 }
 
-/// Translation x rotation x scale; a positive angle turns counter-clockwise as seen, with v pointing down.
+/// Translation x rotation x scale; a positive angle is counter-clockwise as seen, with v pointing down.
+///
+/// Source: KHR_texture_transform.
 fn affine_of(transform: &TextureTransform) -> Affine2 {
     let (sin, cos) = transform.rotation.0.sin_cos();
     let scale = Vec2::from(transform.scale.0);
@@ -184,7 +190,10 @@ fn alpha_mode(source: &json::Material) -> AlphaMode {
     }
 }
 
-/// Brings factors into the ranges of the standard; refuses what is no number.
+/// Clamps factors to the ranges of the standard.
+///
+/// # Errors
+/// Returns an error if a factor is not finite or the emission is not plausible.
 fn clamp(material: &mut Material) -> Result<(), Cause> {
     let factors = [material.metallic, material.roughness, material.transmission, material.ior];
     let is_finite = material.base_colour.is_finite()
@@ -202,7 +211,8 @@ fn clamp(material: &mut Material) -> Result<(), Cause> {
     Ok(())
 }
 
-/// Takes away normal and metallic textures that could not be read: grey would mean something there.
+/// Removes normal and metallic-roughness textures whose image cannot be read, because the grey substitute would be taken
+/// for data.
 pub(crate) fn drop_missing_data_textures(materials: &mut [Material], textures: &[Texture]) {
     let is_there = |slot: &TextureSlot| !textures[slot.texture.index()].image.encoded.is_empty();
     for material in materials {

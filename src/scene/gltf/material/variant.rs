@@ -1,4 +1,4 @@
-//! KHR_materials_variants: sets of materials, one of which may be chosen.
+//! KHR_materials_variants: alternative sets of materials.
 //!
 //! Source: the extension's specification.
 
@@ -32,23 +32,29 @@ struct Mapping {
     variants: Vec<usize>,
 }
 
-/// Names of the variants of a file, in its order; none where it tells them badly.
+/// Names of the variants of a file, in its order; empty if the extension is invalid.
 pub(crate) fn names(root: &Root) -> Vec<String> {
     let extension = root.extensions.as_ref().and_then(|extensions| extensions.others.get(EXTENSION));
     let variants = extension.and_then(|extension| Variants::deserialize(extension).ok());
     variants.map_or_else(Vec::new, |list| list.variants.into_iter().map(|variant| variant.name).collect())
 }
 
-/// Number of the variant of this name.
+/// Index of the variant of this name.
+///
+/// # Errors
+/// Returns an error if there is no such variant.
 pub(crate) fn index(names: &[String], wanted: &str) -> Result<usize, Cause> {
     names.iter().position(|name| name == wanted).ok_or_else(|| {
         let available = names.iter().map(|name| format!("{name:?}")).collect::<Vec<_>>().join(", ");
-        let available = if available.is_empty() { "none at all".to_owned() } else { available };
+        let available = if available.is_empty() { "none".to_owned() } else { available };
         Cause::NoSuchVariant { wanted: wanted.to_owned(), available }
     })
 }
 
-/// Material of a primitive in a variant, else the one it wears without.
+/// Material of a primitive in a variant, else its default material.
+///
+/// # Errors
+/// Returns an error if the extension is invalid.
 pub(crate) fn material(primitive: &Primitive, variant: Option<usize>, name: &str) -> Result<Option<usize>, Cause> {
     let plain = primitive.material.map(|material| material.value());
     let extension = primitive.extensions.as_ref().and_then(|extensions| extensions.others.get(EXTENSION));
@@ -86,7 +92,7 @@ mod tests {
     }
 
     #[test]
-    fn a_variant_changes_the_materials_it_names() {
+    fn a_variant_replaces_the_materials_that_it_maps() {
         assert_eq!(worn(None).as_deref(), Ok("oak"));
         assert_eq!(worn(Some("dark")).as_deref(), Ok("oak"));
         assert_eq!(worn(Some("light")).as_deref(), Ok("ash"));
@@ -94,13 +100,13 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_variant_is_an_error_that_lists_the_others() {
+    fn an_unknown_variant_is_an_error_that_lists_the_variants() {
         let error = worn(Some("pink")).expect_err("there is none");
         assert!(error.contains("no variant \"pink\"; there is \"dark\", \"light\""), "{error}");
     }
 
     #[test]
-    fn a_mapping_to_nowhere_is_named() {
+    fn a_mapping_to_a_missing_material_is_reported() {
         let mut fixture = chair();
         fixture.primitive()["extensions"]["KHR_materials_variants"]["mappings"][0]["material"] = json!(9);
         let options = LoadOptions { variant: Some("light".to_owned()) };

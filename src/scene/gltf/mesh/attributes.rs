@@ -14,10 +14,10 @@ use crate::scene::gltf::file::accessor::Reader;
 use crate::scene::gltf::file::document::Document;
 use crate::scene::{Vertex, VertexAttribute};
 
-/// What the attribute names of stored light begin with.
+/// Prefix of the names of baked light attributes, after the underscore.
 const IRRADIANCE: &str = "IRRADIANCE_";
 
-/// Attributes of a primitive, read row by row.
+/// Vertex attributes of a primitive.
 pub(crate) struct Attributes<'a> {
     document: &'a Document<'a>,
     map: &'a BTreeMap<Checked<Semantic>, Index<Accessor>>,
@@ -53,10 +53,10 @@ impl<'a> Attributes<'a> {
         self.reader(semantic)?.map(|reader| reader.vectors(rows)).transpose()
     }
 
-    /// COLOR_0 as RGBA; integers are fractions of their largest value.
+    /// COLOR_0 as RGBA; integers are read as fractions of their largest value.
     fn colours(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
         if self.irradiance_accessors().next().is_some() {
-            return self.baked_paint(rows);
+            return self.original_colours(rows);
         }
         let Some(reader) = self.reader(Semantic::Colors(0))? else { return Ok(None) };
         let reader = if reader.is_integer() { reader.into_fractions() } else { reader };
@@ -68,10 +68,10 @@ impl<'a> Attributes<'a> {
         Ok(Some(colours))
     }
 
-    /// What COLOR_0 was before a bake made it show the light.
-    fn baked_paint(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
-        let kept = |name: &str| self.vectors::<3>(Semantic::Extras(name.to_owned()), rows);
-        let (colours, alphas) = (kept("COLOR")?, kept("ALPHA")?);
+    /// Vertex colours of a baked primitive: COLOR_0 shows the baked light, and `_COLOR` and `_ALPHA` hold the original.
+    fn original_colours(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
+        let original = |name: &str| self.vectors::<3>(Semantic::Extras(name.to_owned()), rows);
+        let (colours, alphas) = (original("COLOR")?, original("ALPHA")?);
         let colour_at = |v: usize| colours.as_ref().map_or(Vec3::ONE, |colours| Vec3::from(colours[v]));
         let alpha_at = |v: usize| alphas.as_ref().map_or(1.0, |alphas| alphas[v][0]);
         Ok(Some((0..rows.len()).map(|v| colour_at(v).extend(alpha_at(v))).collect()))

@@ -1,8 +1,8 @@
-//! Primitives that Draco compressed (KHR_draco_mesh_compression).
+//! Decoding of compressed primitives (KHR_draco_mesh_compression).
 //!
-//! A decoded primitive is handed on as the bytes that its accessors describe, so that nothing downstream knows of Draco.
+//! The result is the bytes that the primitive's accessors describe, so accessors read them like bytes of the file.
 //!
-//! Source: the extension's specification; the decoder is draco-core's.
+//! Source: the extension's specification; the decoder of the draco-core crate is used.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -20,10 +20,10 @@ use crate::scene::gltf::file::document::Document;
 /// Name of the extension.
 pub(crate) const EXTENSION: &str = "KHR_draco_mesh_compression";
 
-/// Most memory of a decoded primitive; its own accessors must say as much before.
+/// Most bytes of a decoded primitive.
 const MAX_DECODED_BYTES: u64 = 2 << 30;
 
-/// Bytes behind accessors of the file.
+/// Decoded bytes by the index of their accessor.
 pub(crate) type Decoded = HashMap<usize, Vec<u8>>;
 
 /// The extension's JSON.
@@ -31,13 +31,14 @@ pub(crate) type Decoded = HashMap<usize, Vec<u8>>;
 #[serde(rename_all = "camelCase")]
 struct Stream {
     buffer_view: u32,
-    /// Unique ids of attributes in the stream.
+    /// Unique id in the stream of each attribute.
     attributes: BTreeMap<String, u32>,
 }
 
-/// Decodes a primitive that has the extension; nothing for any other.
+/// Decodes a primitive that has the extension; the result is empty for any other primitive.
 ///
-/// Errors: the stream is broken, or holds something else than the accessors say.
+/// # Errors
+/// Returns an error if the stream is invalid or does not match the accessors.
 pub(crate) fn decode(document: &Document<'_>, primitive: &Primitive, name: &str) -> Result<Decoded, Cause> {
     let extension = primitive.extensions.as_ref().and_then(|extensions| extensions.others.get(EXTENSION));
     let Some(extension) = extension else { return Ok(Decoded::new()) };
@@ -53,7 +54,7 @@ pub(crate) fn decode(document: &Document<'_>, primitive: &Primitive, name: &str)
         decoded.insert(index.value(), index_bytes(&mesh, accessor).map_err(failed)?);
     }
     for (semantic, id) in &stream.attributes {
-        // An attribute that only the stream knows has no accessor, and no reader.
+        // An attribute without an accessor is not read.
         let Some(&index) = primitive.attributes.get(&semantic_of(semantic)) else { continue };
         let attribute = mesh.attribute_by_unique_id(*id).ok_or_else(|| failed(format!("{semantic} is missing")))?;
         let accessor = accessor_of(index)?;
@@ -67,12 +68,12 @@ fn decode_mesh(bytes: &[u8], num_indices: Option<u64>) -> Result<Mesh, String> {
     let limits = num_indices.map_or(limits, |indices| limits.with_max_faces(indices / 3));
     let mut mesh = Mesh::new();
     let status = MeshDecoder::new().decode(&mut DecoderBuffer::new(bytes).with_limits(limits), &mut mesh);
-    // The decoder breaks its longer sentences into lines.
+    // The decoder's messages may have several lines; ours have one.
     status.map_err(|error| error.to_string().split_whitespace().collect::<Vec<_>>().join(" "))?;
     Ok(mesh)
 }
 
-/// The typed model knows the words, but keeps its parser to itself.
+/// Parses an attribute name through the typed model, whose own parser is private.
 fn semantic_of(name: &str) -> Checked<Semantic> {
     serde_json::from_value(name.into()).unwrap_or(Checked::Invalid)
 }
@@ -86,7 +87,7 @@ fn index_bytes(mesh: &Mesh, accessor: &Accessor) -> Result<Vec<u8>, String> {
         Checked::Valid(GenericComponentType(ComponentType::U32)) => 4,
         Checked::Valid(GenericComponentType(ComponentType::U16)) => 2,
         Checked::Valid(GenericComponentType(ComponentType::U8)) => 1,
-        _ => return Err("its indices are no unsigned integers".to_owned()),
+        _ => return Err("its indices are not unsigned integers".to_owned()),
     };
     let fits = size == 4 || mesh.num_points() as u64 <= 1 << (8 * size);
     if !fits {
@@ -95,7 +96,7 @@ fn index_bytes(mesh: &Mesh, accessor: &Accessor) -> Result<Vec<u8>, String> {
     Ok(corners.flat_map(|corner| corner.to_le_bytes().into_iter().take(size)).collect())
 }
 
-/// Values in the order of vertices, in the accessor's type, which must be that of the stream.
+/// Values in vertex order. The type of the accessor must be that of the stream.
 fn attribute_bytes(mesh: &Mesh, attribute: &PointAttribute, accessor: &Accessor) -> Result<Vec<u8>, String> {
     let (Checked::Valid(GenericComponentType(component)), Checked::Valid(shape)) =
         (accessor.component_type, accessor.type_)
@@ -107,7 +108,7 @@ fn attribute_bytes(mesh: &Mesh, attribute: &PointAttribute, accessor: &Accessor)
         return Err(format!("{} vertices instead of {}", mesh.num_points(), accessor.count.0));
     }
     if attribute.data_type() != data_type(component) || usize::from(attribute.num_components()) != width {
-        return Err("an attribute is of another type than its accessor".to_owned());
+        return Err("the type of an attribute differs from that of its accessor".to_owned());
     }
     let size = width * component.size();
     let stride = usize::try_from(attribute.byte_stride()).map_err(|_| "a negative stride".to_owned())?;
@@ -115,9 +116,9 @@ fn attribute_bytes(mesh: &Mesh, attribute: &PointAttribute, accessor: &Accessor)
     let mut bytes = Vec::with_capacity(mesh.num_points() * size);
     for point in 0..mesh.num_points() {
         let row = attribute.mapped_index(PointIndex(point as u32)).0 as usize;
-        let start = row.checked_mul(stride).ok_or("an attribute points outside its values")?;
+        let start = row.checked_mul(stride).ok_or("an attribute refers to a missing value")?;
         let value = values.get(start..).and_then(|rest| rest.get(..size));
-        bytes.extend_from_slice(value.ok_or("an attribute points outside its values")?);
+        bytes.extend_from_slice(value.ok_or("an attribute refers to a missing value")?);
     }
     Ok(bytes)
 }

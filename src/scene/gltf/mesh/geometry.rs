@@ -1,4 +1,4 @@
-//! A mesh primitive in its own space: vertices and plain triangles, whatever the file's topology.
+//! A mesh primitive in mesh space: vertices and separate triangles, whatever the topology in the file.
 
 use gltf::json::Extras;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
@@ -12,27 +12,31 @@ use crate::scene::gltf::error::Cause;
 use crate::scene::gltf::file::document::Document;
 use crate::scene::{Vertex, VertexAttribute};
 
-/// A primitive, ready to be placed.
+/// A primitive in mesh space.
 #[derive(Clone)]
 pub(crate) struct Geometry {
-    /// Vertices that triangles use, in file order; the normal is zero where the file has none.
+    /// The vertices that triangles use, in file order; the normal is zero if the file has none.
     pub vertices: Vec<Vertex>,
-    /// Corners, counter-clockwise from the front.
+    /// Corners, counter-clockwise as seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// The file has normals.
+    /// Whether the file has normals.
     pub has_normals: bool,
-    /// Stored light at `vertices`.
+    /// Baked light at `vertices`.
     pub irradiance: Vec<VertexAttribute>,
-    /// Joints that move each of `vertices`; empty where there are none.
+    /// Joints and weights of each of `vertices`; empty if the primitive is not skinned.
     pub influences: Vec<Vec<Influence>>,
-    /// It is the back of a double-sided surface, written out by a bake.
+    /// Whether it is the back of a double-sided surface, which a bake writes as triangles of its own.
     pub is_back_side: bool,
 }
 
 impl Geometry {
-    /// Reads a primitive; none where it has no triangles to show (points, lines, no positions).
+    /// Reads a primitive; `None` if it has no triangles: points, lines, or no positions.
     ///
-    /// `uv_sets` are the texture coordinates that its material wants, `weights` those of its morph targets.
+    /// `uv_sets` are the texture coordinate sets of its material, `weights` those of its morph targets, and `name` stands for
+    /// the primitive in messages.
+    ///
+    /// # Errors
+    /// Returns an error if an accessor cannot be read or an index refers to no vertex.
     pub fn read(
         document: &Document<'_>,
         primitive: &Primitive,
@@ -60,17 +64,18 @@ impl Geometry {
             has_normals,
             irradiance: attributes.irradiance(&rows)?,
             influences: influences::influences(&attributes, &rows)?,
-            is_back_side: says_back_side(&primitive.extras),
+            is_back_side: is_marked_back_side(&primitive.extras),
         }))
     }
 }
 
 fn dangling_vertex(primitive: &Primitive, row: u32) -> Cause {
     let accessor = primitive.indices.map_or(0, |index| index.value());
-    Cause::accessor(accessor, format!("index {row} points at no vertex"))
+    Cause::accessor(accessor, format!("index {row} refers to no vertex"))
 }
 
-fn says_back_side(extras: &Extras) -> bool {
+/// Whether the `extras` of a primitive mark it as the back of a double-sided surface.
+fn is_marked_back_side(extras: &Extras) -> bool {
     let value = extras.as_ref().and_then(|raw| serde_json::from_str::<serde_json::Value>(raw.get()).ok());
     value.is_some_and(|value| value["back_side"] == true)
 }
@@ -84,7 +89,7 @@ mod tests {
     use crate::scene::gltf::fixture::Fixture;
     use crate::scene::{Scene, normal_of};
 
-    /// A unit square in the xy plane, as strip order wants it, with normals along +Z.
+    /// A unit square in the xy plane with its vertices in strip order and normals along +Z.
     fn square() -> Fixture {
         let mut fixture = Fixture::new();
         fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);
@@ -105,14 +110,14 @@ mod tests {
     }
 
     #[test]
-    fn every_other_triangle_of_a_strip_is_turned() {
+    fn every_other_triangle_of_a_strip_has_its_winding_swapped() {
         let mut fixture = square();
         fixture.primitive()["mode"] = json!(5);
         assert_faces_plus_z(&fixture.load(), 1.0);
     }
 
     #[test]
-    fn a_fan_goes_round_its_first_vertex() {
+    fn the_triangles_of_a_fan_share_its_first_vertex() {
         let mut fixture = square();
         fixture.primitive()["mode"] = json!(6);
         fixture.indices(&[0, 1, 3, 2]);
@@ -120,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn unused_vertices_are_left_out_and_the_rest_keep_their_order() {
+    fn unused_vertices_are_dropped_and_the_rest_keep_their_order() {
         let mut fixture = square();
         fixture.indices(&[3, 2, 1]);
         let scene = fixture.load();
@@ -133,11 +138,11 @@ mod tests {
     fn an_index_without_a_vertex_names_its_accessor() {
         let mut fixture = square();
         fixture.indices(&[0, 1, 4]);
-        assert!(fixture.error().contains("accessor 2: index 4 points at no vertex"), "{}", fixture.error());
+        assert!(fixture.error().contains("accessor 2: index 4 refers to no vertex"), "{}", fixture.error());
     }
 
     #[test]
-    fn lines_and_missing_positions_are_noted() {
+    fn primitives_of_lines_are_noted() {
         let mut fixture = square();
         fixture.primitive()["mode"] = json!(1);
         let scene = fixture.load();
@@ -145,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn stored_light_and_back_sides_are_recognised() {
+    fn baked_light_and_back_sides_are_recognised() {
         let mut fixture = Fixture::triangle();
         fixture.floats("_IRRADIANCE_DIRECT_0", "VEC3", &[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0]);
         fixture.primitive()["extras"] = json!({"back_side": true});

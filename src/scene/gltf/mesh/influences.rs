@@ -1,4 +1,4 @@
-//! Joints that move each vertex of a skinned primitive, with their weights.
+//! Joints and weights of the vertices of a skinned primitive.
 //!
 //! Source: glTF 2.0, section 3.7.3.3.
 
@@ -7,13 +7,16 @@ use gltf::json::mesh::Semantic;
 use super::attributes::Attributes;
 use crate::scene::gltf::error::Cause;
 
-/// Sets of four joints a vertex that are read.
+/// Most sets of four joints per vertex.
 const MAX_SETS: u32 = 4;
 
-/// Joint number in its skin, and weight.
+/// Index of a joint in its skin, and its weight.
 pub(crate) type Influence = (usize, f32);
 
-/// Influences of each vertex: JOINTS_n with WEIGHTS_n, those without weight left out.
+/// Influences of each vertex: JOINTS_n with WEIGHTS_n, without those of weight zero; empty if the primitive has no joints.
+///
+/// # Errors
+/// Returns an error if an accessor cannot be read.
 pub(crate) fn influences(attributes: &Attributes<'_>, rows: &[u32]) -> Result<Vec<Vec<Influence>>, Cause> {
     let mut influences = Vec::new();
     for set in 0..MAX_SETS {

@@ -1,4 +1,4 @@
-//! Meshes of nodes: each primitive is read once and placed wherever nodes show it.
+//! The meshes of nodes. Each primitive is read once and placed once per node and instance.
 
 use std::collections::HashMap;
 
@@ -16,24 +16,24 @@ use crate::scene::gltf::node::instancing;
 use crate::scene::gltf::node::tree::{PlacedNode, name_of};
 use crate::scene::{Material, NamedNode, Scene, Transform};
 
-/// A primitive as it is read: mesh, primitive, and the bits of its morph weights.
+/// Identifies a primitive that is read: mesh, primitive, and the bits of its morph weights.
 type Key = (usize, usize, Vec<u32>);
 
 /// Reads and places meshes.
 pub(crate) struct Meshes<'a> {
     document: &'a Document<'a>,
-    /// Texture coordinate sets that each material of the file wants `[m]`.
+    /// Texture coordinate sets of each material of the file `[m]`.
     uv_sets: Vec<[u32; 2]>,
     variant: Option<usize>,
     world_from_node: HashMap<usize, DAffine3>,
     geometries: HashMap<Key, Option<Geometry>>,
     default_material: Option<MaterialId>,
-    /// Primitives without triangles that were passed over.
+    /// Number of ignored primitives without triangles.
     pub not_triangles: usize,
 }
 
 impl<'a> Meshes<'a> {
-    /// Ready to place the meshes of `nodes`.
+    /// Prepares placing the meshes of `nodes`; `variant` is the index of the material variant in use.
     pub fn new(
         document: &'a Document<'a>,
         nodes: &[PlacedNode<'_>],
@@ -44,14 +44,17 @@ impl<'a> Meshes<'a> {
             document,
             uv_sets,
             variant,
-            world_from_node: skin::node_places(nodes),
+            world_from_node: skin::world_from_nodes(nodes),
             geometries: HashMap::new(),
             default_material: None,
             not_triangles: 0,
         }
     }
 
-    /// Adds the mesh of a node to the scene, wherever the node shows it; `place` is the node's in [`Scene::nodes`].
+    /// Adds all instances of a node's mesh to the scene; `place` is the index of the node in [`Scene::nodes`].
+    ///
+    /// # Errors
+    /// Returns an error if the mesh or anything that it refers to is missing or invalid.
     pub fn place(
         &mut self,
         scene: &mut Scene,
@@ -108,16 +111,16 @@ impl<'a> Meshes<'a> {
             None => default_material(&mut self.default_material, &mut scene.materials),
         };
         let name = name.to_owned();
-        if let Some(worn) = skin::is_worn_by(placed.node, geometry) {
+        if let Some(skin) = skin::of_node(placed.node, geometry) {
             let user = || format!("node {}", placed.index);
-            let joints = skin::world_from_joints(self.document, worn, &self.world_from_node, user)?;
+            let joints = skin::world_from_joints(self.document, skin, &self.world_from_node, user)?;
             let posed = skin::posed(geometry, &joints)?;
             return placement::place(scene, &posed, DAffine3::IDENTITY, name, material);
         }
         placement::place(scene, geometry, placed.world_from_node * node_from_mesh, name, material)
     }
 
-    /// Material of a primitive, whose existence is checked here.
+    /// Index of the material of a primitive; it is checked that the material exists.
     fn material(&self, primitive: &Primitive, name: &str) -> Result<Option<usize>, Cause> {
         let material = variant::material(primitive, self.variant, name)?;
         if let Some(material) = material {
@@ -128,7 +131,7 @@ impl<'a> Meshes<'a> {
     }
 }
 
-/// The glTF default material, added to the scene the first time it is needed.
+/// The default material of glTF, added to the scene when it is first needed.
 fn default_material(id: &mut Option<MaterialId>, materials: &mut Vec<Material>) -> MaterialId {
     *id.get_or_insert_with(|| {
         materials.push(Material { name: "glTF default".to_owned(), ..Material::default() });
@@ -141,7 +144,7 @@ mod tests {
     use crate::scene::gltf::fixture::Fixture;
 
     #[test]
-    fn a_primitive_without_material_gets_the_white_metal_of_the_standard() {
+    fn a_primitive_without_material_gets_the_default_material_of_gltf() {
         let scene = Fixture::triangle().load();
         assert_eq!((scene.materials.len(), scene.materials[0].metallic), (1, 1.0));
     }

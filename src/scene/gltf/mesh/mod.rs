@@ -1,4 +1,7 @@
-//! Meshes: attributes are read through accessors, brought into their rest pose, and placed in the world.
+//! Meshes: primitives are read through accessors, deformed by morph targets and skins, and placed in the world.
+//!
+//! `meshes` goes through the primitives of a node: `geometry` reads one (`attributes`, `topology`, `draco`, `morph`), `skin`
+//! deforms it, `placement` transforms it into the scene.
 
 mod attributes;
 mod draco;

@@ -1,4 +1,4 @@
-//! Morph targets at their rest pose: the weights that the node, else the mesh, states.
+//! Morph targets in their rest pose: with the weights of the node, else of the mesh.
 //!
 //! Source: glTF 2.0, section 3.7.2.2.
 
@@ -10,12 +10,15 @@ use super::attributes::Attributes;
 use crate::scene::Vertex;
 use crate::scene::gltf::error::Cause;
 
-/// Weights of the targets of a mesh where this node shows it; those left out are zero.
+/// Weights of the morph targets of a mesh at this node; missing weights are zero.
 pub(crate) fn weights<'a>(node: &'a Node, mesh: &'a Mesh) -> &'a [f32] {
     node.weights.as_deref().or(mesh.weights.as_deref()).unwrap_or_default()
 }
 
-/// Moves vertices by the targets' weighted displacements.
+/// Adds the weighted displacements of the targets to the vertices.
+///
+/// # Errors
+/// Returns an error if an accessor cannot be read.
 pub(crate) fn apply(
     attributes: &Attributes<'_>,
     targets: &[MorphTarget],
@@ -51,7 +54,7 @@ mod tests {
     }
 
     #[test]
-    fn the_weights_of_the_mesh_act_and_those_of_the_node_override_them() {
+    fn weights_of_the_node_override_those_of_the_mesh() {
         let mut fixture = morphing();
         let height = |fixture: &Fixture| fixture.load().vertices[2].position.z;
         assert_eq!(height(&fixture), 0.0);
@@ -62,7 +65,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mesh_is_read_anew_where_its_weights_differ() {
+    fn nodes_with_different_weights_show_different_shapes() {
         let mut fixture = morphing();
         fixture.json["nodes"] = json!([{"mesh": 0}, {"mesh": 0, "weights": [1]}]);
         fixture.json["scenes"][0]["nodes"] = json!([0, 1]);

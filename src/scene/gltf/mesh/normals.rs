@@ -1,8 +1,9 @@
-//! How a transform turns normals.
+//! Transformation of normals.
 
 use glam::DMat3;
 
-/// Inverse transpose up to scale, by cofactors: it also serves transforms that flatten an object.
+/// Matrix that transforms normals: the inverse transpose of `linear` up to a positive factor. It is computed from cofactors,
+/// so it exists for singular transforms, too.
 pub(crate) fn normal_matrix(linear: DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = linear;
     let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };

@@ -1,4 +1,4 @@
-//! A primitive into the world: transformed, wound counter-clockwise, with unit normals everywhere.
+//! Places a primitive in the world: transformed, wound counter-clockwise, with unit normals.
 
 use glam::{DAffine3, Vec3};
 
@@ -9,6 +9,9 @@ use crate::scene::gltf::error::Cause;
 use crate::scene::{Instance, Scene, Triangle, Vertex, VertexAttribute, is_degenerate, is_placeable, normal_of};
 
 /// Adds `geometry` to the scene as one instance.
+///
+/// # Errors
+/// Returns an error if a transformed position is not finite or implausibly far away.
 pub(crate) fn place(
     scene: &mut Scene,
     geometry: &Geometry,
@@ -33,7 +36,7 @@ pub(crate) fn place(
             scene.dropped_triangles += 1;
             continue;
         }
-        give_missing_normals(scene, vertices, normal_of(positions));
+        set_missing_normals(scene, vertices, normal_of(positions));
         scene.triangles.push(Triangle { vertices, material, instance, is_back_side: geometry.is_back_side });
     }
     for vertex in scene.vertices[first..].iter_mut().filter(|vertex| vertex.normal == Vec3::ZERO) {
@@ -43,7 +46,8 @@ pub(crate) fn place(
     Ok(())
 }
 
-/// Vertices of the geometry in the order they are placed: as they are, or split per triangle for flat normals.
+/// Indices of the geometry's vertices in the order of the scene: unchanged, or three per triangle if the file has no
+/// normals, for flat shading.
 fn vertex_sources(geometry: &Geometry) -> Vec<u32> {
     if geometry.has_normals {
         (0..geometry.vertices.len() as u32).collect()
@@ -82,7 +86,7 @@ fn add_vertices(
     Ok(())
 }
 
-/// Vertices without an attribute that others have get zeros.
+/// Adds the baked light; vertices without an attribute that other primitives have get zeros.
 fn add_irradiance(scene: &mut Scene, geometry: &Geometry, sources: &[u32], first: usize) {
     for attribute in &geometry.irradiance {
         let values = match scene.irradiance.iter_mut().find(|stored| stored.name == attribute.name) {
@@ -100,7 +104,8 @@ fn add_irradiance(scene: &mut Scene, geometry: &Geometry, sources: &[u32], first
     }
 }
 
-fn give_missing_normals(scene: &mut Scene, vertices: [u32; 3], normal: Vec3) {
+/// Sets normals that are zero to the normal of the face.
+fn set_missing_normals(scene: &mut Scene, vertices: [u32; 3], normal: Vec3) {
     for v in vertices {
         let vertex = &mut scene.vertices[v as usize];
         if vertex.normal == Vec3::ZERO {
@@ -122,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn a_mirrored_node_keeps_fronts_in_front() {
+    fn a_mirrored_node_keeps_its_front_faces() {
         let mut fixture = Fixture::triangle();
         fixture.json["nodes"][0]["scale"] = json!([-1, 1, 1]);
         let scene = fixture.load();
@@ -143,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn missing_normals_are_flat() {
+    fn a_mesh_without_normals_is_shaded_flat() {
         let mut fixture = Fixture::new();
         fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0]);
         fixture.indices(&[0, 1, 2, 0, 3, 1]);
@@ -154,7 +159,7 @@ mod tests {
     }
 
     #[test]
-    fn zero_normals_take_the_normal_of_the_face() {
+    fn zero_normals_become_the_normal_of_the_face() {
         let mut fixture = Fixture::triangle();
         fixture.floats("NORMAL", "VEC3", &[0.0; 9]);
         assert!(fixture.load().vertices.iter().all(|vertex| vertex.normal == Vec3::Z));
@@ -181,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn a_transform_out_of_this_world_is_refused() {
+    fn a_transform_to_implausible_positions_is_refused() {
         let mut fixture = Fixture::triangle();
         fixture.json["nodes"][0]["scale"] = json!([1e30, 1, 1]);
         assert!(fixture.error().contains("vertex position"), "{}", fixture.error());

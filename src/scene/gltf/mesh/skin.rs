@@ -1,4 +1,7 @@
-//! Skins at their rest pose: each vertex is carried by the joints as the file's nodes place them.
+//! Skins in their rest pose: linear blend skinning with the joints at the transforms of the file's nodes.
+//!
+//! A vertex with weights w_j is transformed from mesh space to world space by sum_j w_j W_j B_j / sum_j w_j, with the world
+//! transform W_j and the inverse bind matrix B_j of joint j. The transform of the mesh's own node is ignored.
 //!
 //! Source: glTF 2.0, section 3.7.3.
 
@@ -25,9 +28,12 @@ struct Skin {
     inverse_bind_matrices: Option<u32>,
 }
 
-/// Transforms that a skin's joints apply, mesh to world `[joint]`.
+/// Transforms W_j B_j of a skin's joints, from mesh space to world space `[joint]`.
 ///
-/// `world_from_node` holds the nodes that stand in the scene, by index in the file.
+/// `world_from_node` holds the visible nodes by their index in the file.
+///
+/// # Errors
+/// Returns an error if the skin does not exist, is invalid, or has a joint that is not in the scene.
 pub(crate) fn world_from_joints(
     document: &Document<'_>,
     index: Index<json::Skin>,
@@ -44,7 +50,7 @@ pub(crate) fn world_from_joints(
     let joints = skin.joints.iter().zip(inverse_bind).map(|(&joint, joint_from_mesh)| {
         let world_from_joint = world_from_node.get(&(joint as usize));
         let world_from_joint = world_from_joint.ok_or_else(|| {
-            Cause::Broken(format!("skin {index} hangs on node {joint}, which does not stand in the scene"))
+            Cause::Broken(format!("skin {index} has the joint node {joint}, which is not in the scene"))
         })?;
         Ok(*world_from_joint * joint_from_mesh)
     });
@@ -63,19 +69,20 @@ fn inverse_bind_matrices(
     Ok(matrices.into_iter().map(|matrix| DAffine3::from_mat4(DMat4::from_cols_array(&matrix.map(f64::from)))).collect())
 }
 
-/// Where every node of the scene stands.
-pub(crate) fn node_places(nodes: &[PlacedNode<'_>]) -> HashMap<usize, DAffine3> {
+/// World transforms of the nodes by their index in the file.
+pub(crate) fn world_from_nodes(nodes: &[PlacedNode<'_>]) -> HashMap<usize, DAffine3> {
     nodes.iter().map(|placed| (placed.index, placed.world_from_node)).collect()
 }
 
-/// The node wears a skin.
-pub(crate) fn is_worn_by(node: &Node, geometry: &Geometry) -> Option<Index<json::Skin>> {
+/// The skin that deforms a primitive of this node; `None` if the node has no skin or the primitive no joints.
+pub(crate) fn of_node(node: &Node, geometry: &Geometry) -> Option<Index<json::Skin>> {
     node.skin.filter(|_| !geometry.influences.is_empty())
 }
 
-/// The geometry in world space, carried by its joints.
+/// The skinned geometry in world space.
 ///
-/// Errors: a vertex hangs on a joint that the skin lacks.
+/// # Errors
+/// Returns an error if a vertex refers to a joint that the skin does not have.
 pub(crate) fn posed(geometry: &Geometry, world_from_joints: &[DAffine3]) -> Result<Geometry, Cause> {
     let mut posed = geometry.clone();
     for (vertex, influences) in posed.vertices.iter_mut().zip(&geometry.influences) {
@@ -86,14 +93,14 @@ pub(crate) fn posed(geometry: &Geometry, world_from_joints: &[DAffine3]) -> Resu
     Ok(posed)
 }
 
-/// Mean of the joints' transforms that carries a vertex.
+/// Weighted mean of the joints' transforms.
 fn blended(influences: &[Influence], world_from_joints: &[DAffine3]) -> Result<DAffine3, Cause> {
     let total: f64 = influences.iter().map(|&(_, weight)| f64::from(weight)).sum();
     let mut sum = DAffine3 { matrix3: glam::DMat3::ZERO, translation: glam::DVec3::ZERO };
     for &(joint, weight) in influences {
         let joint = world_from_joints
             .get(joint)
-            .ok_or_else(|| Cause::Broken(format!("a vertex hangs on joint {joint}, which its skin lacks")))?;
+            .ok_or_else(|| Cause::Broken(format!("a vertex refers to joint {joint}, which its skin does not have")))?;
         let share = f64::from(weight) / total;
         sum.matrix3 += joint.matrix3 * share;
         sum.translation += joint.translation * share;
@@ -108,7 +115,7 @@ mod tests {
 
     use crate::scene::gltf::fixture::Fixture;
 
-    /// A triangle whose first two corners hang on joint 0 and whose last hangs half on joint 1, which stands 2 higher.
+    /// A triangle whose first two corners follow joint 0, and whose last follows joint 0 and, 2 higher, joint 1 by half each.
     fn skinned() -> Fixture {
         let mut fixture = Fixture::triangle();
         let joints = fixture.accessor(5121, "VEC4", 3, &[0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0]);
@@ -122,14 +129,14 @@ mod tests {
     }
 
     #[test]
-    fn joints_carry_their_vertices_and_the_place_of_the_node_does_not_count() {
+    fn vertices_follow_their_joints_and_not_the_node_of_the_mesh() {
         let scene = skinned().load();
         let positions = [0, 1, 2].map(|v: usize| scene.vertices[v].position);
         assert_eq!(positions, [Vec3::ZERO, Vec3::X, Vec3::new(0.0, 1.0, 1.0)]);
     }
 
     #[test]
-    fn inverse_bind_matrices_come_first() {
+    fn inverse_bind_matrices_are_applied_before_the_joints() {
         let mut fixture = skinned();
         let shift = |z: f32| {
             let mut matrix = glam::Mat4::IDENTITY.to_cols_array();
@@ -142,11 +149,11 @@ mod tests {
     }
 
     #[test]
-    fn broken_skins_are_named() {
+    fn invalid_skins_are_reported() {
         let cases = [
             (json!([]), "refers to skin 0"),
-            (json!([{"joints": [1]}]), "joint 1, which its skin lacks"),
-            (json!([{"joints": [1, 7]}]), "node 7, which does not stand in the scene"),
+            (json!([{"joints": [1]}]), "joint 1, which its skin does not have"),
+            (json!([{"joints": [1, 7]}]), "node 7, which is not in the scene"),
             (json!([{"joints": "all"}]), "skin 0"),
             (json!([{"joints": [1, 2], "inverseBindMatrices": 0}]), "elements of 3 numbers where 16"),
         ];

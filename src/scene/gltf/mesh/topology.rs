@@ -1,8 +1,10 @@
-//! Strips, fans and lists of triangles become plain triangles over the vertices in use.
+//! Converts triangle strips, fans and lists to separate triangles over the used vertices.
 
 use gltf::json::mesh::Mode;
 
-/// Corners of the triangles that `mode` makes of vertices in this order (glTF 2.0, section 3.7.2.1).
+/// Corners of the triangles that `mode` forms of vertices in this order.
+///
+/// Source: glTF 2.0, section 3.7.2.1.
 pub(crate) fn triangulate(mode: Mode, order: &[u32]) -> Vec<[u32; 3]> {
     match mode {
         Mode::TriangleStrip => {
@@ -17,7 +19,10 @@ pub(crate) fn triangulate(mode: Mode, order: &[u32]) -> Vec<[u32; 3]> {
     }
 }
 
-/// Renumbers corners so that only used vertices count, and returns those in file order; fails with an index too high.
+/// Renumbers corners over the used vertices only, and returns the rows of these vertices in file order.
+///
+/// # Errors
+/// Returns the first index that is not below `num_vertices`.
 pub(crate) fn keep_used(triangles: &mut [[u32; 3]], num_vertices: usize) -> Result<Vec<u32>, u32> {
     let mut new_index = vec![u32::MAX; num_vertices];
     for &corner in triangles.iter().flatten() {
@@ -39,7 +44,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn broken_topologies_give_no_triangles() {
+    fn incomplete_topologies_give_no_triangles() {
         assert!(triangulate(Mode::TriangleFan, &[]).is_empty());
         assert!(triangulate(Mode::TriangleStrip, &[0, 1]).is_empty());
         assert_eq!(triangulate(Mode::Triangles, &[0, 1, 2, 3]).len(), 1);

@@ -1,8 +1,8 @@
-//! The axes of a node without its scale, shear and mirroring: what lights and cameras follow.
+//! The orientation of a node without its scale, shear and mirroring, for lights and cameras.
 
 use glam::{DAffine3, DMat3, DVec3};
 
-/// Right-handed orthonormal axes that keep the node's +Z exactly and its +Y as nearly as possible.
+/// Right-handed orthonormal axes: the node's +Z exactly, and its +Y made perpendicular to it.
 pub(crate) fn frame(world_from_node: DAffine3) -> DMat3 {
     let z = world_from_node.matrix3.z_axis.try_normalize().unwrap_or(DVec3::Z);
     let across = world_from_node.matrix3.y_axis.cross(z);

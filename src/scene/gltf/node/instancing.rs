@@ -1,4 +1,4 @@
-//! EXT_mesh_gpu_instancing: one node shows its mesh at many places.
+//! EXT_mesh_gpu_instancing: one node with many instances of its mesh.
 //!
 //! Source: the extension's specification.
 
@@ -28,14 +28,20 @@ fn instancing(node: &Node, index: usize) -> Result<Option<Instancing>, Cause> {
     parsed.map_err(|error| Cause::Broken(format!("node {index}: {EXTENSION}: {error}")))
 }
 
-/// At how many places a node shows its mesh, as far as its JSON tells.
+/// Number of instances of a node's mesh, according to the JSON; 1 without the extension.
+///
+/// # Errors
+/// Returns an error if the extension is invalid.
 pub(crate) fn count(document: &Document<'_>, node: &Node, index: usize) -> Result<u64, Cause> {
     let Some(instancing) = instancing(node, index)? else { return Ok(1) };
     let accessors = instancing.attributes.values().filter_map(|&accessor| document.root.get(Index::new(accessor)));
     Ok(accessors.map(|accessor: &Accessor| accessor.count.0).max().unwrap_or(1))
 }
 
-/// From the mesh to the node, for each place.
+/// Transforms from mesh space to node space, one per instance.
+///
+/// # Errors
+/// Returns an error if the extension is invalid or its accessors cannot be read.
 pub(crate) fn transforms(document: &Document<'_>, node: &Node, index: usize) -> Result<Vec<DAffine3>, Cause> {
     let Some(instancing) = instancing(node, index)? else { return Ok(vec![DAffine3::IDENTITY]) };
     let rows: Vec<u32> = (0..count(document, node, index)? as u32).collect();
@@ -67,10 +73,10 @@ mod tests {
     use crate::scene::gltf::fixture::Fixture;
 
     #[test]
-    fn every_place_is_an_instance_below_its_node() {
+    fn every_transform_makes_an_instance_below_its_node() {
         let mut fixture = Fixture::triangle();
         let places = fixture.floats("_PLACES", "VEC3", &[1.0, 0.0, 0.0, 0.0, 5.0, 0.0]);
-        // A half turn about Z, told in bytes that stand for fractions.
+        // A half turn about Z, in normalised bytes.
         let turns = fixture.accessor(5120, "VEC4", 2, &[0, 0, 0, 127, 0, 0, 127, 0]);
         fixture.json["accessors"][turns]["normalized"] = json!(true);
         let attributes = json!({"TRANSLATION": places, "ROTATION": turns});
@@ -90,11 +96,11 @@ mod tests {
         let scales = fixture.accessor(5126, "VEC3", 2, &[0; 24]);
         let attributes = json!({"TRANSLATION": places, "SCALE": scales});
         fixture.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": {"attributes": attributes}});
-        assert!(fixture.error().contains("row 1 is wanted"), "{}", fixture.error());
+        assert!(fixture.error().contains("row 1 is read"), "{}", fixture.error());
     }
 
     #[test]
-    fn a_thousand_million_places_are_refused_before_memory_is_asked_for() {
+    fn a_thousand_million_instances_are_refused_before_memory_is_allocated() {
         let mut fixture = Fixture::triangle();
         let places = fixture.accessor(5126, "VEC3", 1_000_000_000, &[0; 12]);
         let attributes = json!({"TRANSLATION": places});

@@ -1,4 +1,4 @@
-//! The node tree: every visible node with its transform to the world, and the places of instanced meshes.
+//! The node tree: the visible nodes with their world transforms, and the transforms of instanced meshes.
 
 pub(super) mod frame;
 pub(super) mod instancing;

@@ -1,4 +1,4 @@
-//! The node tree, flattened: every visible node with its transform to the world.
+//! Flattening of the node tree: every visible node with its world transform.
 
 use glam::DAffine3;
 use gltf::json::{Index, Node};
@@ -7,24 +7,25 @@ use crate::scene::Transform;
 use crate::scene::gltf::error::Cause;
 use crate::scene::gltf::file::document::Document;
 
-/// Deepest node tree that is walked.
+/// Most levels of a node tree.
 const MAX_DEPTH: usize = 256;
 
-/// A node of the file at its place in the world.
+/// A node of the file with its world transform.
 pub(crate) struct PlacedNode<'a> {
     /// Index in the file.
     pub index: usize,
     /// The node.
     pub node: &'a Node,
-    /// The node above it, as a place in the list of all.
+    /// Its parent, as an index into the list of all visible nodes; `None` for a root.
     pub parent: Option<usize>,
-    /// From its space to the world.
+    /// Transform from node space to world space.
     pub world_from_node: DAffine3,
 }
 
-/// All visible nodes at and below `roots`, parents first.
+/// All visible nodes at and below `roots`, parents before children.
 ///
-/// Errors: loops, second parents and bottomless trees; transforms that are not finite.
+/// # Errors
+/// Returns an error if a node is its own ancestor or has two parents, the tree is too deep, or a transform is not finite.
 pub(crate) fn flatten<'a>(document: &'a Document<'_>, roots: &[Index<Node>]) -> Result<Vec<PlacedNode<'a>>, Cause> {
     let mut walk = Walk { document, is_visited: vec![false; document.root.nodes.len()], placed: Vec::new() };
     for &root in roots {
@@ -74,7 +75,7 @@ fn is_hidden(node: &Node) -> bool {
     visibility.is_some_and(|visibility| visibility["visible"] == false)
 }
 
-/// Where a node stands in the one above it.
+/// Transform of a node to its parent.
 pub(crate) fn transform(node: &Node) -> Transform {
     match (node.matrix, Transform::default()) {
         (Some(matrix), _) => Transform::Matrix(matrix),
@@ -87,7 +88,7 @@ pub(crate) fn transform(node: &Node) -> Transform {
     }
 }
 
-/// The first name that says something, else a number.
+/// The first of two names that is not blank, else `kind` and `index`.
 pub(crate) fn name_of(names: [&Option<String>; 2], kind: &str, index: usize) -> String {
     let given = names.into_iter().flatten().find(|name| !name.trim().is_empty());
     given.cloned().unwrap_or_else(|| format!("{kind} {index}"))
@@ -111,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bottomless_tree_is_refused() {
+    fn a_tree_that_is_too_deep_is_refused() {
         let mut fixture = Fixture::triangle();
         let chain: Vec<Value> = (1..=1000).map(|child| json!({"children": [child]})).collect();
         fixture.json["nodes"] = json!(chain);
@@ -120,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn transforms_go_down_the_tree() {
+    fn transforms_are_multiplied_down_the_tree() {
         let mut fixture = Fixture::triangle();
         fixture.json["nodes"] = json!([{"scale": [2, 2, 2], "children": [1]}, {"translation": [1, 0, 0], "mesh": 0}]);
         assert_eq!(fixture.load().vertices[1].position.x, 4.0);

@@ -1,6 +1,6 @@
-//! An encoded image to pixels: PNG, JPEG, WebP, and KTX2 with Basis Universal inside.
+//! Decodes images: PNG, JPEG, WebP, and KTX2 with Basis Universal.
 //!
-//! The size that an image claims is held against a limit before any memory is asked for.
+//! The size in an image's header is checked against a limit before any memory is allocated.
 
 use std::io::Cursor;
 
@@ -10,10 +10,10 @@ use image::{ImageFormat, ImageReader, Limits};
 /// Largest image side that is decoded, pixels.
 const MAX_IMAGE_SIDE: u32 = 16_384;
 
-/// Memory of the largest image.
+/// Most bytes of a decoded image.
 const MAX_IMAGE_BYTES: u64 = 4 * (MAX_IMAGE_SIDE as u64).pow(2);
 
-/// What a KTX2 file begins with.
+/// First bytes of a KTX2 file.
 const KTX2_MAGIC: [u8; 12] = *b"\xabKTX 20\xbb\r\n\x1a\n";
 
 /// A decoded image.
@@ -25,9 +25,10 @@ pub(crate) struct Pixels {
     pub mime_type: &'static str,
 }
 
-/// Number of pixels that an image claims to have, held against the largest side.
+/// Number of pixels according to the header of an image.
 ///
-/// Errors: as [`decode`], but without a look at the pixels.
+/// # Errors
+/// Returns an error if the format is not supported, the header is invalid, or a side is longer than [`MAX_IMAGE_SIDE`].
 pub(crate) fn claimed_pixels(encoded: &[u8]) -> Result<u64, String> {
     let (width, height) = if encoded.starts_with(&KTX2_MAGIC) {
         let side = |at: usize| encoded.get(at..at + 4).map_or(0, |b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
@@ -49,9 +50,10 @@ fn format_of(encoded: &[u8]) -> Result<ImageFormat, String> {
     }
 }
 
-/// Decodes an image, whatever its file claims to be.
+/// Decodes an image; its format follows from its first bytes, whatever the MIME type in the file.
 ///
-/// Errors: a sentence that says what is wrong.
+/// # Errors
+/// Returns an error if the format is not supported or the image is invalid; it is one sentence for the caller to embed.
 pub(crate) fn decode(encoded: &[u8]) -> Result<Pixels, String> {
     if encoded.starts_with(&KTX2_MAGIC) {
         return decode_ktx2(encoded);
@@ -68,25 +70,25 @@ pub(crate) fn decode(encoded: &[u8]) -> Result<Pixels, String> {
     Ok(Pixels { width, height, rgba: pixels.into_raw(), mime_type: format.to_mime_type() })
 }
 
-/// Bytes of a KTX2 head before its table of levels (KTX 2.0, section 2).
-const KTX2_HEAD_BYTES: usize = 80;
+/// Bytes of a KTX2 header before its table of levels (KTX 2.0, section 2).
+const KTX2_HEADER_BYTES: usize = 80;
 
-/// Refuses what glTF does not allow in a KTX2 file, and levels that claim to unpack to more than their pixels take: the
-/// transcoder would ask for that memory.
-fn check_ktx2_head(encoded: &[u8]) -> Result<(), String> {
+/// Checks the header of a KTX2 file: glTF allows a single two-dimensional image only, and no level may state more
+/// uncompressed bytes than its pixels need, because the transcoder would allocate that memory.
+fn check_ktx2_header(encoded: &[u8]) -> Result<(), String> {
     let word = |at: usize| encoded.get(at..at + 4).map_or(0, |b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
     let [width, height, depth, layers, faces, levels] = [20, 24, 28, 32, 36, 40].map(word);
     if depth > 1 || layers > 1 || faces != 1 {
-        return Err("it is no plain picture".to_owned());
+        return Err("it is not a single two-dimensional image".to_owned());
     }
     for level in 0..levels.clamp(1, u32::BITS) {
         let blocks = |side: u32| u64::from((side >> level).max(1).div_ceil(4));
-        // No code takes more than 16 bytes for 4 x 4 pixels.
+        // No block format needs more than 16 bytes for 4 x 4 pixels.
         let largest = 16 * blocks(width) * blocks(height);
-        let at = KTX2_HEAD_BYTES + 24 * level as usize + 16;
+        let at = KTX2_HEADER_BYTES + 24 * level as usize + 16;
         let unpacked = u64::from(word(at)) | u64::from(word(at + 4)) << 32;
         if unpacked > largest {
-            return Err(format!("level {level} claims {unpacked} bytes and has pixels for {largest}"));
+            return Err(format!("level {level} states {unpacked} bytes, but its pixels need at most {largest}"));
         }
     }
     Ok(())
@@ -94,7 +96,7 @@ fn check_ktx2_head(encoded: &[u8]) -> Result<(), String> {
 
 /// The largest level of a Basis Universal texture.
 fn decode_ktx2(encoded: &[u8]) -> Result<Pixels, String> {
-    check_ktx2_head(encoded)?;
+    check_ktx2_header(encoded)?;
     let failed = |error: basisu::Error| format!("it cannot be decoded as Basis Universal: {error:?}");
     let texture = Transcoder::new(encoded).map_err(failed)?;
     let (width, height) = texture.base_dimensions();
@@ -103,7 +105,7 @@ fn decode_ktx2(encoded: &[u8]) -> Result<Pixels, String> {
     }
     let rgba = texture.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE).map_err(failed)?;
     if rgba.len() as u64 != 4 * u64::from(width) * u64::from(height) {
-        return Err("its size is not what it claims".to_owned());
+        return Err("its size differs from its header".to_owned());
     }
     Ok(Pixels { width, height, rgba, mime_type: "image/ktx2" })
 }
@@ -113,14 +115,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_image_that_claims_too_much_is_refused_by_its_head_alone() {
+    fn an_image_that_is_too_large_is_refused_by_its_header_alone() {
         let mut head = KTX2_MAGIC.to_vec();
         head.extend([0u32, 1, 100_000, 4, 0, 0, 1].into_iter().flat_map(u32::to_le_bytes));
         assert!(claimed_pixels(&head).expect_err("too wide").contains("100000 x 4"));
         let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec();
         png.extend([40_000u32, 40_000].into_iter().flat_map(u32::to_be_bytes));
         png.extend([8, 6, 0, 0, 0]);
-        // The checksum of the head; without data behind it the file is cut off, which nobody has come to yet.
+        // The checksum of the header. There is no image data, but the decoder does not read that far.
         png.extend(crc32(&png[12..29]).to_be_bytes());
         png.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e");
         assert!(claimed_pixels(&png).expect_err("too large").contains("40000 x 40000"));

@@ -1,4 +1,4 @@
-//! Encoded images from buffers, data: URIs or files, and their pixels.
+//! Images: their encoded bytes from buffers, `data:` URIs or files, and their decoded pixels.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,10 +10,10 @@ use crate::scene::Image;
 use crate::scene::gltf::file::document::Document;
 use crate::scene::gltf::file::resource;
 
-/// Most bytes of all encoded image files.
+/// Most bytes of all encoded images together.
 const MAX_ENCODED_BYTES: u64 = 4 << 30;
 
-/// Most pixels of all images together: 4 GiB.
+/// Most pixels of all images together; 4 GiB as RGBA.
 const MAX_PIXELS: u64 = 1 << 30;
 
 /// An image before it is decoded.
@@ -35,7 +35,7 @@ impl Encoded {
     }
 }
 
-/// Encoded images by index, as long as what they claim to hold fits in memory.
+/// Encoded images by index; an image is an error if it cannot be read or the pixels that its header states exceed the limit.
 pub(crate) fn fetch_images(
     document: &Document<'_>,
     sources: BTreeMap<usize, &json::Image>,

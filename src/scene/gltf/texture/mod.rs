@@ -1,4 +1,4 @@
-//! Textures: images of buffers, data: URIs or files, decoded in parallel, with their samplers.
+//! Textures: images in buffers, `data:` URIs or files, decoded in parallel, with their samplers.
 
 mod decode;
 mod image;

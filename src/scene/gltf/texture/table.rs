@@ -1,6 +1,6 @@
-//! Textures: images of buffers, data: URIs or files, decoded in parallel, with their samplers.
+//! The textures that materials use, with their decoded images and samplers.
 //!
-//! An image that cannot be had is never fatal: a grey pixel stands in and a note says so.
+//! An image that cannot be read is no error: it is replaced by a grey pixel, and a note tells the user.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -16,10 +16,10 @@ use crate::scene::gltf::file::document::Document;
 use crate::scene::gltf::file::extension;
 use crate::scene::{Sampler, Texture, Wrap};
 
-/// Extensions that name an image of a kind that plain glTF has not, in the order in which they are taken.
+/// Extensions that give a texture an image of another format, in order of preference.
 const SOURCE_EXTENSIONS: [&str; 2] = ["KHR_texture_basisu", "EXT_texture_webp"];
 
-/// Textures in the order in which materials first asked for them.
+/// Textures in the order in which materials first refer to them.
 #[derive(Default)]
 pub(crate) struct TextureTable {
     ids: HashMap<usize, TextureId>,
@@ -27,7 +27,10 @@ pub(crate) struct TextureTable {
 }
 
 impl TextureTable {
-    /// Id of a texture of the file, whose existence is checked here.
+    /// Id of a texture of the file; `user` names the material that refers to it.
+    ///
+    /// # Errors
+    /// Returns an error if the texture does not exist.
     pub fn id(
         &mut self,
         document: &Document<'_>,
@@ -41,7 +44,10 @@ impl TextureTable {
         }))
     }
 
-    /// Decodes every image that was asked for, once each.
+    /// Loads the textures; every image is decoded once. Notes about missing images are added to `notes`.
+    ///
+    /// # Errors
+    /// Returns an error if an image or a sampler does not exist.
     pub fn load(&self, document: &Document<'_>, notes: &mut Vec<String>) -> Result<Vec<Texture>, Cause> {
         let textures: Vec<_> = self.in_file.iter().map(|&i| (i, &document.root.textures[i])).collect();
         let mut sources = BTreeMap::new();
@@ -65,9 +71,9 @@ impl TextureTable {
     }
 }
 
-/// Index of the image of a texture: the plain one, else one of a kind that an extension brings.
+/// Index of the image of a texture: the plain one, else that of an extension.
 fn source_of(texture: &json::Texture) -> Option<usize> {
-    // The typed model has a sentinel for none.
+    // The typed model uses the largest index if there is no source.
     let plain = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
     plain.or_else(|| {
         let extensions = &texture.extensions.as_ref()?.others;
@@ -117,7 +123,7 @@ mod tests {
     use crate::scene::gltf::fixture::Fixture;
 
     #[test]
-    fn images_keep_their_pixels_and_their_file() {
+    fn an_image_keeps_its_pixels_and_its_encoded_bytes() {
         let mut fixture = Fixture::triangle();
         let texture = fixture.texture(&[[255, 0, 0, 255], [0, 0, 255, 128]]);
         fixture.json["samplers"] = json!([{"magFilter": 9728, "wrapS": 33071, "wrapT": 33648}]);
@@ -132,7 +138,7 @@ mod tests {
     }
 
     #[test]
-    fn an_image_is_loaded_once_for_many_textures() {
+    fn textures_share_the_image_that_they_refer_to() {
         let mut fixture = Fixture::triangle();
         fixture.texture(&[[9; 4]]);
         fixture.json["textures"] = json!([{"source": 0}, {"source": 0}]);
@@ -143,7 +149,7 @@ mod tests {
     }
 
     #[test]
-    fn an_image_that_cannot_be_had_turns_grey_with_a_note() {
+    fn an_image_that_cannot_be_read_is_replaced_by_grey_with_a_note() {
         let images = [
             (json!({"uri": "no_such.png"}), "no folder"),
             (json!({"uri": "data:image/png;base64,AAAA"}), "neither PNG, JPEG, WebP nor KTX2"),
@@ -159,7 +165,7 @@ mod tests {
             let info = json!({"index": 0});
             fixture.material(json!({"normalTexture": info, "pbrMetallicRoughness": {"baseColorTexture": info}}));
             let scene = fixture.load();
-            assert!(scene.notes[0].contains(expected), "{:?} should say {expected:?}", scene.notes);
+            assert!(scene.notes[0].contains(expected), "{:?} should contain {expected:?}", scene.notes);
             assert_eq!(scene.textures[0].image.rgba, [128, 128, 128, 255]);
             assert!(scene.materials[0].base_colour_texture.is_some() && scene.materials[0].normal_texture.is_none());
         }

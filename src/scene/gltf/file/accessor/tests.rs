@@ -15,7 +15,7 @@ fn sparse_values_replace_rows() {
 }
 
 #[test]
-fn without_a_view_the_base_is_zero() {
+fn an_accessor_without_a_view_is_zero() {
     let mut fixture = Fixture::triangle();
     let colour = json!({"componentType": 5126, "type": "VEC3", "count": 3});
     fixture.json["accessors"].as_array_mut().expect("a list").push(colour);
@@ -71,7 +71,7 @@ fn a_view_outside_its_buffer_is_named() {
 }
 
 #[test]
-fn not_a_number_is_refused() {
+fn an_accessor_with_nan_is_refused() {
     let mut fixture = Fixture::triangle();
     fixture.floats("POSITION", "VEC3", &[f32::NAN, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
     assert!(fixture.error().contains("accessor 2: it holds NaN"), "{}", fixture.error());
@@ -81,5 +81,5 @@ fn not_a_number_is_refused() {
 fn attributes_shorter_than_the_positions_are_refused() {
     let mut fixture = Fixture::triangle();
     fixture.json["accessors"][1]["count"] = json!(2);
-    assert!(fixture.error().contains("accessor 1: row 2 is wanted"), "{}", fixture.error());
+    assert!(fixture.error().contains("accessor 1: row 2 is read"), "{}", fixture.error());
 }

@@ -8,7 +8,7 @@ fn close(a: Vec2, b: Vec2) -> bool {
 }
 
 #[test]
-fn a_texture_transform_scales_then_turns_then_shifts() {
+fn a_texture_transform_scales_then_rotates_then_translates() {
     let mut fixture = Fixture::triangle();
     let texture = fixture.texture(&[[255; 4]]);
     let transform =
@@ -17,7 +17,7 @@ fn a_texture_transform_scales_then_turns_then_shifts() {
     fixture.material(json!({"pbrMetallicRoughness": {"baseColorTexture": info}, "normalTexture": info}));
     let material = &fixture.load().materials[0];
     let slot = material.base_colour_texture.expect("a texture");
-    // Seen with v down, a quarter turn counter-clockwise brings u to up, which is -v.
+    // With v pointing down, a quarter turn counter-clockwise maps u to -v.
     assert!(close(slot.coordinate([Vec2::ZERO, Vec2::X]), Vec2::new(10.0, 18.0)));
     assert!(close(slot.coordinate([Vec2::ZERO, Vec2::Y]), Vec2::new(13.0, 20.0)));
     assert_eq!(material.normal_texture.map(|(slot, _)| slot), Some(slot));
@@ -75,7 +75,7 @@ fn factors_emission_and_flags_are_read() {
 }
 
 #[test]
-fn specular_glossiness_gives_its_diffuse_half() {
+fn the_diffuse_part_of_specular_glossiness_is_used() {
     let mut fixture = Fixture::triangle();
     let extension = json!({"diffuseFactor": [0.5, 0.5, 0.5, 1], "specularFactor": [1, 1, 1]});
     fixture.material(json!({"extensions": {"KHR_materials_pbrSpecularGlossiness": extension}}));
@@ -84,7 +84,7 @@ fn specular_glossiness_gives_its_diffuse_half() {
 }
 
 #[test]
-fn numbers_beyond_f32_are_refused() {
+fn factors_beyond_f32_are_refused() {
     let mut fixture = Fixture::triangle();
     fixture.material(json!({"name": "x", "emissiveFactor": [1e39, 0, 0]}));
     assert!(fixture.error().contains("factor of material \"x\""), "{}", fixture.error());
