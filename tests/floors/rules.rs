@@ -27,7 +27,7 @@ const FLOORS: [(&str, f32); 15] = [
 ];
 
 /// Floors inside of a folder: names of its files and folders, the lowest first; those of one floor never use each other.
-/// What is not named here stands above all.
+/// Files that are not named, such as the settings that gather those of each technique, are free.
 pub type Rooms<'a> = (&'a str, &'a [&'a [&'a str]]);
 
 pub const ROOMS: &[Rooms<'_>] = &[];
@@ -73,12 +73,11 @@ pub fn upward_imports_in_rooms(imports: &Imports, rooms: &[Rooms<'_>]) -> Vec<St
     let mut found = Vec::new();
     for (file, target, names) in ties(&[&imports.used, &imports.passed_on]) {
         for (folder, floors) in rooms {
-            let height = |room: &str| floors.iter().position(|floor| floor.contains(&room)).unwrap_or(floors.len());
+            let height = |room: &str| floors.iter().position(|floor| floor.contains(&room));
             let (Some(room), Some(below)) = (room_in(file, folder), room_in(target, folder)) else {
                 continue;
             };
-            let is_free = height(room) == floors.len();
-            if room != below && !is_free && height(below) >= height(room) {
+            if room != below && height(room).zip(height(below)).is_some_and(|(room, below)| below >= room) {
                 found.push(format!("{file} uses {names} of {target}: in {folder}, {below} is not below {room}"));
             }
         }
