@@ -61,8 +61,27 @@ impl Imports {
                     tie(&mut used, file, &target, &name);
                 }
             }
+            self.follow_methods(file, &mut used);
         }
         (used, passed_on)
+    }
+
+    /// Ties the file that defines a type to `file` if this one gives the type methods that the first calls.
+    fn follow_methods(&self, file: &str, used: &mut Uses) {
+        // Types of the standard library have methods of these names, too.
+        const COMMON: [&str; 10] = ["clear", "get", "insert", "is_empty", "iter", "len", "map", "new", "push", "take"];
+        for (name, methods) in &self.files[file].methods {
+            let Some(Target::Item { file: owner, .. }) = self.resolve(&module_of(file), &[name.clone()], 0) else {
+                continue;
+            };
+            let calls = &self.files[&owner];
+            let own = calls.methods.get(name);
+            let is_called = |method: &&String| calls.called.contains(*method) && !COMMON.contains(&method.as_str());
+            let is_own = |method: &&String| own.is_some_and(|own| own.contains(*method));
+            for method in methods.iter().filter(is_called).filter(|method| !is_own(method)) {
+                tie(used, &owner, file, &format!("{name}::{method}"));
+            }
+        }
     }
 
     /// Follows `path` as it stands in `module`; `None` if it leads out of the crate or to a local name.

@@ -1,6 +1,6 @@
 //! What one file defines, imports and names in its code.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::tokens::{Token, text_at, tokens, without_tests};
 
@@ -27,6 +27,10 @@ pub struct Names {
     pub imports: Vec<Import>,
     /// Paths in code that are not a `use`.
     pub mentions: Vec<Path>,
+    /// Names of the methods of each type in `impl Type` blocks, without those of traits.
+    pub methods: BTreeMap<String, BTreeSet<String>>,
+    /// Methods and associated functions that the code calls, of whatever type.
+    pub called: BTreeSet<String>,
     /// Modules that exist in tests only.
     pub test_modules: Vec<String>,
 }
@@ -55,16 +59,20 @@ impl Names {
     pub fn of(text: &str) -> Self {
         let (tokens, test_modules) = without_tests(&tokens(text));
         let mut names = Self { test_modules, ..Self::default() };
-        let (mut at, mut depth, mut inline) = (0, 0, Vec::new());
+        let (mut at, mut depth, mut inline, mut type_of_impl) = (0, 0, Vec::new(), None);
         while at < tokens.len() {
             match tokens[at].text.as_str() {
                 "{" => depth += 1,
+                "impl" if depth == 0 => type_of_impl = inherent_type(&tokens[at + 1..]),
                 "}" => {
                     depth -= 1;
                     inline.retain(|&outer| outer < depth);
                 }
                 "mod" if text_at(&tokens, at + 2) == "{" => inline.push(depth),
                 _ => {}
+            }
+            if let Some(name) = type_of_impl.as_ref().filter(|_| depth == 1 && tokens[at].text == "fn") {
+                names.methods.entry(name.clone()).or_default().insert(text_at(&tokens, at + 1).to_owned());
             }
             let scope = Scope { depth, inline: inline.len() };
             at = if tokens[at].is_word() { names.read_word(&tokens, at, scope) } else { at + 1 };
@@ -121,6 +129,10 @@ impl Names {
         // A lone lower-case word is a local variable or a field unless it is called.
         let names_an_item =
             path.len() > 1 || path[0].starts_with(char::is_uppercase) || matches!(text_at(tokens, end), "(" | "!");
+        let is_call = matches!(text_at(tokens, end), "(" | "::");
+        if path.len() > 1 || before == "." && is_call {
+            self.called.extend(path.last().cloned());
+        }
         if names_an_item && !matches!(before, "." | "::") {
             self.mentions.push(scope.seen_from_file(path));
         }
@@ -138,6 +150,22 @@ impl Names {
         }));
         end
     }
+}
+
+/// The type of the `impl Type {` whose tokens follow the keyword; `None` if it is of a trait.
+fn inherent_type(tokens: &[Token]) -> Option<String> {
+    let (mut depth, mut name) = (0, None);
+    for token in tokens {
+        match token.text.as_str() {
+            "<" => depth += 1,
+            ">" => depth -= 1,
+            "for" if depth == 0 => return None,
+            "{" | "where" => break,
+            _ if depth == 0 && token.is_word() => name = Some(token.text.clone()),
+            _ => {}
+        }
+    }
+    name
 }
 
 /// Appends each (name, path) of a tree such as `a::{b, c::{self, d as e}}` below `prefix`.

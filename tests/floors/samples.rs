@@ -95,6 +95,18 @@ fn a_circle_between_a_folder_and_its_child_is_caught() {
 }
 
 #[test]
+fn a_circle_by_methods_is_caught() {
+    let methods =
+        ("scene/b.rs", "use super::A;\nimpl A { pub fn turn(&self) {} }\nimpl Clone for A { fn copy(&self) {} }");
+    let with = |text| circles(&[("scene/mod.rs", "mod a; mod b; pub use a::A;"), ("scene/a.rs", text), methods]);
+    let expected = ["circle: scene/a.rs -[A::turn]-> scene/b.rs -[A]-> scene/a.rs"];
+    assert_eq!(with("pub struct A;\nimpl A { fn f(&self) { self.turn() } }"), expected);
+    assert_eq!(with("pub struct A;\nfn f(a: &A) { A::turn(a) }"), expected);
+    assert!(with("pub struct A;\nimpl A { fn f(&self) { self.copy().turn } }").is_empty(), "a trait, and a field");
+    assert!(with("pub struct A;\nfn turn() { turn() }").is_empty(), "a function of the same name");
+}
+
+#[test]
 fn files_without_a_circle_pass() {
     let found = circles(&[
         ("scene/mod.rs", "pub mod a; pub mod b; mod c; pub use {a::A, b::b};\n#[cfg(test)] mod samples;"),
