@@ -30,6 +30,8 @@ pub mod radiosity;
 
 pub mod bake;
 
+#[cfg(feature = "viewer")]
 pub mod viewer;
 
+#[cfg(feature = "cli")]
 pub mod cli;

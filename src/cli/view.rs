@@ -7,6 +7,7 @@ use clap::Args;
 
 use super::bake_options::BakeOptions;
 use super::scene_input::VariantOption;
+#[cfg(feature = "viewer")]
 use crate::viewer::{self, ViewerOptions};
 
 /// Options of the viewer.
@@ -26,10 +27,11 @@ pub struct ViewArgs {
     pub frame_log: Option<PathBuf>,
 }
 
-/// Opens the window until it is closed.
+/// Opens the window and returns when it is closed.
 ///
 /// # Errors
-/// There is no display, or no graphics device that can draw into a window.
+/// Returns an error if there is no display, or no graphics device that can draw into a window.
+#[cfg(feature = "viewer")]
 pub fn run(args: &ViewArgs) -> Result<()> {
     let ViewArgs { scene, variant, bake, frame_log } = args;
     viewer::run(ViewerOptions {
@@ -38,4 +40,13 @@ pub fn run(args: &ViewArgs) -> Result<()> {
         settings: bake.settings(),
         frame_log: frame_log.clone(),
     })
+}
+
+/// Explains how to build the program with the viewer.
+///
+/// # Errors
+/// Always returns an error: this build has no viewer.
+#[cfg(not(feature = "viewer"))]
+pub fn run(_: &ViewArgs) -> Result<()> {
+    anyhow::bail!("this build has no viewer: build it with the feature \"viewer\", or use a subcommand (see --help)")
 }
