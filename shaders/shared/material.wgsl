@@ -1,5 +1,5 @@
 // Bind group 2: a material's numbers and textures, and what they say of one point. Written by
-// src/gpu/material_buffers.rs. No branch depends on the numbers, and pixels are handed them by the vertices, as
+// src/render/scene/materials.rs. No branch depends on the numbers, and pixels are handed them by the vertices, as
 // shared/frame.wgsl explains.
 
 const NO_GROUP: u32 = 0xffffffffu;

@@ -1,6 +1,6 @@
 //! The exposure that suits a bake as a whole, whichever way one looks.
 //!
-//! The rule is that of shaders/meter.wgsl, with surfaces in the place of pixels: the mean of the logarithms is shown as
+//! The rule is that of shaders/display/light_meter.wgsl, with surfaces in the place of pixels: the mean of the logarithms is shown as
 //! middle grey, unless highlights would burn out.
 
 use std::f32::consts::PI;

@@ -32,7 +32,7 @@ pub fn srgb_byte_table() -> [f32; 256] {
     std::array::from_fn(|byte| linear_from_srgb(byte as f32 / 255.0))
 }
 
-/// Tone map: keeps colours below 0.8 and compresses brighter ones towards white, as shaders/tonemap.wgsl does.
+/// Tone map: keeps colours below 0.8 and compresses brighter ones towards white, as shaders/display/tone_map.wgsl does.
 ///
 /// Source: Khronos 2024, "PBR Neutral Tone Mapper", without its offset for Fresnel reflection.
 #[must_use]

@@ -71,3 +71,32 @@ fn mapped_bytes(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
     let view = buffer.get_mapped_range(..).map_err(|error| GpuError::Lost(error.to_string()))?;
     Ok(view.to_vec())
 }
+
+/// Value of an IEEE 754 half float: 1 sign bit, 5 bits of exponent, 10 bits of fraction.
+#[must_use]
+pub fn f32_from_half(bits: u16) -> f32 {
+    let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };
+    let exponent = i32::from(bits >> 10 & 0x1f);
+    let fraction = f32::from(bits & 0x3ff);
+    sign * match exponent {
+        0 => fraction * 2f32.powi(-24),
+        31 if fraction == 0.0 => f32::INFINITY,
+        31 => f32::NAN,
+        _ => (1024.0 + fraction) * 2f32.powi(exponent - 25),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn half_floats_have_their_value() {
+        let known = [(0x0000, 0.0), (0x3c00, 1.0), (0xc000, -2.0), (0x7bff, 65504.0), (0x0001, 5.960_464_5e-8)];
+        for (bits, value) in known {
+            assert_eq!(f32_from_half(bits), value, "{bits:#x}");
+        }
+        assert_eq!(f32_from_half(0x3555), 0.333_251_95);
+        assert!(f32_from_half(0x7c00).is_infinite() && f32_from_half(0x7e00).is_nan());
+    }
+}

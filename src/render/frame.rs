@@ -3,16 +3,17 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use super::display::light_meter::{LightMeter, Metered};
+use super::display::tone_map::ToneMapPass;
 use super::frame_uniform::{frame_bind_group, frame_layout};
-use super::light_tiles::TileFiller;
-use super::meter::{Meter, Seen};
 use super::shadow::ShadowScene;
 use super::shadow::debug::DebugPass;
 use super::shadow::real_time::{RealTimeLight, Subject};
-use super::surface::{DirectSource, SurfacePass};
-use super::surface_targets::SurfaceTargets;
-use super::tonemap::ToneMapPass;
-use super::weighted_light::WeightedLight;
+use super::stored_light::light_tiles::TileFiller;
+use super::stored_light::weighted_light::WeightedLight;
+use super::surface::direct_source::DirectSource;
+use super::surface::pass::SurfacePass;
+use super::surface::targets::SurfaceTargets;
 use super::{RenderSettings, View};
 use crate::gpu::readback::read_buffer;
 use crate::gpu::{Gpu, GpuError, Stopwatch};
@@ -32,7 +33,7 @@ pub struct Renderer {
     shadows: Option<Arc<ShadowScene>>,
     /// Made when the first debug view is drawn.
     debug: Option<DebugPass>,
-    meter: Meter,
+    meter: LightMeter,
     /// The meter of another renderer that sets the exposure here.
     followed: Option<wgpu::Buffer>,
     watch: Option<Arc<Stopwatch>>,
@@ -59,7 +60,7 @@ impl Renderer {
             shows_last_exposure: false,
             shadows: None,
             debug: None,
-            meter: Meter::new(gpu, &frame_layout),
+            meter: LightMeter::new(gpu, &frame_layout),
             followed: None,
             watch: None,
             tone_map: ToneMapPass::new(gpu, &frame_layout, output_format, samples),
@@ -195,7 +196,7 @@ impl Renderer {
         lap(encoder, "surfaces");
         // The exposure that suits this picture, unless one is given.
         if is_metered {
-            let seen = if is_last { Seen::Luminance } else { Seen::Radiance };
+            let seen = if is_last { Metered::Luminance } else { Metered::Radiance };
             self.meter.draw(gpu, encoder, &targets, seen, &frame);
             lap(encoder, "light meter");
         }

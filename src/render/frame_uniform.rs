@@ -112,7 +112,7 @@ pub fn frame_bind_group(
 mod tests {
     use super::*;
     use crate::gpu::shader::struct_layout;
-    use crate::render::surface::SURFACE;
+    use crate::render::surface::direct_source::SURFACE;
     use std::mem::offset_of;
 
     #[test]

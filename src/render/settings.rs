@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::false_colour::LuxScale;
+use super::display::false_colour::LuxScale;
 use super::shadow::{ShadowDebug, ShadowSettings};
 use crate::base::ids::GroupId;
 
@@ -43,7 +43,7 @@ pub enum Shading {
 }
 
 impl Shading {
-    /// `SHADING` of shaders/surface.wgsl.
+    /// `SHADING` of shaders/surface/pass.wgsl.
     pub(super) fn number(self) -> u32 {
         match self {
             Shading::Lit => 0,
@@ -109,7 +109,7 @@ impl Default for RenderSettings {
 }
 
 impl ToneMap {
-    /// `TONE_MAP_...` of shaders/shared/display.wgsl.
+    /// `TONE_MAP_...` of shaders/display/display_colour.wgsl.
     pub(super) fn number(self) -> u32 {
         match self {
             ToneMap::Neutral => 0,

@@ -11,7 +11,7 @@ use super::solved::Solved;
 use crate::base::progress::Progress;
 use crate::gpu::Gpu;
 use crate::raytrace::{Ambient, TwoPassSettings, two_pass};
-use crate::render::{Picture, RenderSettings, ShadowScene, develop, picture_in_light};
+use crate::render::{Picture, RenderSettings, ShadowScene, picture_in_light, tone_map_on_cpu};
 use crate::scene::Camera;
 use crate::trace::Tracer;
 
@@ -85,7 +85,7 @@ pub fn traced(
     let ambient = Ambient::Indirect { final_gather: 0 };
     let rays = TwoPassSettings { samples: settings.num_rays, ambient, seed: 0 };
     let film = two_pass(&tracer, &baked, camera, settings.size, &rays, progress);
-    (!progress.is_cancelled()).then(|| develop(film.size(), film.radiance(), render_settings))
+    (!progress.is_cancelled()).then(|| tone_map_on_cpu(film.size(), film.radiance(), render_settings))
 }
 
 /// The eye as an option of `hemicube render`.

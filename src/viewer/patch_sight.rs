@@ -11,7 +11,7 @@ use crate::form_factor::{Row, map_rows};
 use crate::gpu::Gpu;
 use crate::radiosity::sites::Sites;
 use crate::raytrace::MeasuringPoint;
-use crate::render::{RenderSettings, develop};
+use crate::render::{RenderSettings, tone_map_on_cpu};
 use crate::trace::Tracer;
 
 /// Width of the hemicube, pixels.
@@ -60,7 +60,7 @@ impl PatchSight {
             point,
             size: view.size,
             items: view.items.iter().flat_map(item).collect(),
-            shaded: develop(view.size, view.radiance, settings).display,
+            shaded: tone_map_on_cpu(view.size, view.radiance, settings).display,
             factors: factors(&row, solved.mesh.elements.len()),
             open_share: row.sky + row.back(),
         }))

@@ -8,7 +8,7 @@ use super::errand::{Bearer, Finding};
 use super::settings::GroupDial;
 use super::solved::Solved;
 use crate::raytrace::{Ambient, Film, SecondPass, TwoPassSettings};
-use crate::render::{Exposure, RenderSettings, Shading, develop};
+use crate::render::{Exposure, RenderSettings, Shading, tone_map_on_cpu};
 use crate::scene::{Camera, Scene};
 use crate::trace::Tracer;
 
@@ -46,7 +46,7 @@ pub fn trace(bearer: &Bearer, solved: &Solved, wanted: &Subject) {
     let Some(second) = SecondPass::new(&tracer, &baked, &settings, bearer) else { return };
     let mut film = Film::new(*size);
     while film.samples() < MAX_RAYS && second.refine(&mut film, camera, 1, bearer) {
-        let display = develop(*size, film.radiance(), render_settings).display;
+        let display = tone_map_on_cpu(*size, film.radiance(), render_settings).display;
         bearer.bring(Finding::Still(Box::new(Exposed { size: *size, display, num_rays: film.samples() })));
     }
 }

@@ -19,8 +19,7 @@ const KNOWN_CIRCLES: &[&str] =
     &["bake", "baked/coarse", "baked/gltf", "form_factor/hemicube", "lightmap", "render", "viewer", "viewer/worker"];
 
 /// Folders that may still hold too many files.
-const KNOWN_CROWDS: &[&str] =
-    &["shaders", "shaders/shared", "src/radiosity", "src/render", "src/render/shadow", "src/viewer", "tests"];
+const KNOWN_CROWDS: &[&str] = &["src/radiosity", "src/render/shadow", "src/viewer", "tests"];
 
 /// The code files with this extension below `folder` of the project, by their path relative to it, with slashes.
 fn listed(folder: &str, extension: &str) -> Vec<(String, PathBuf)> {

@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Exposure, Raster, RenderSettings, ToneMap, develop, picture_of};
+use hemicube::render::{Exposure, Raster, RenderSettings, ToneMap, picture_of, tone_map_on_cpu};
 use hemicube::scene::{Camera, Material};
 
 use super::stage::{SIZE, draw, four_texels, plain};
@@ -74,7 +74,7 @@ fn the_processor_shows_light_as_the_gpu_does() {
         for tone_map in [ToneMap::Neutral, ToneMap::Linear] {
             let settings = RenderSettings { exposure, tone_map, ..RenderSettings::default() };
             let Some(drawn) = draw(&quads, &settings) else { return };
-            let developed = develop([SIZE; 2], drawn.radiance.clone(), &settings);
+            let developed = tone_map_on_cpu([SIZE; 2], drawn.radiance.clone(), &settings);
             let off = drawn.display.iter().zip(&developed.display).map(|(a, b)| a.abs_diff(*b)).max();
             assert!(off <= Some(1), "{settings:?}: {off:?} steps apart");
         }

@@ -17,7 +17,7 @@ use bisection::Forest;
 use coarsen::{Whole, coarsen};
 use tiles::{Filling, Layout};
 
-/// The element of texels without one. As in shaders/fill_tiles.wgsl.
+/// The element of texels without one. As in shaders/stored_light/light_tiles.wgsl.
 pub(crate) const NOTHING: u32 = u32::MAX;
 /// Texels across and down at most: 256 MiB of light.
 const MAX_SIDE: u32 = 5792;

@@ -95,7 +95,7 @@ fn is_in(tile: &Tile, texel: UVec2) -> bool {
     texel.cmpge(tile.origin).all() && (texel - tile.origin).element_sum() <= tile.side
 }
 
-/// The texture, filled as shaders/fill_tiles.wgsl does it, with a value for each vertex.
+/// The texture, filled as shaders/stored_light/light_tiles.wgsl does it, with a value for each vertex.
 fn filled(coarse: &CoarseMesh, value: impl Fn(u32) -> f32) -> Vec<f32> {
     let side = coarse.side;
     let at = |texel: UVec2| (texel.y * side + texel.x) as usize;

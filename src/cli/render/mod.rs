@@ -15,8 +15,8 @@ use anyhow::{Result, bail};
 use super::scene_input::load;
 use super::terminal::Terminal;
 use crate::gpu::Gpu;
-use crate::render::picture::check_size;
-use crate::render::{FileKind, Picture, Raster, RenderSettings, develop, picture};
+use crate::render::picture_request::check_size;
+use crate::render::{FileKind, Picture, Raster, RenderSettings, picture, tone_map_on_cpu};
 use crate::scene::Scene;
 
 use light::{first_pass_light, raster_light, render_settings, stored_light};
@@ -72,11 +72,11 @@ fn make_picture(scene: Scene, request: &PictureRequest, args: &RenderArgs, termi
             let baked = first_pass_light(scene, args, terminal)?;
             let settings = render_settings(args, &baked);
             let film = traced::two_pass(&baked, request, &args.rays, settings.ambient, terminal)?;
-            Ok(develop(film.size(), film.radiance(), &settings))
+            Ok(tone_map_on_cpu(film.size(), film.radiance(), &settings))
         }
         RendererName::Path => {
             let film = traced::path_traced(&scene, request, &args.rays, terminal)?;
-            Ok(develop(
+            Ok(tone_map_on_cpu(
                 film.size(),
                 film.radiance(),
                 &RenderSettings { exposure: args.exposure, ..RenderSettings::default() },

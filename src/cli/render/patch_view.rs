@@ -13,8 +13,8 @@ use crate::cli::terminal::Terminal;
 use crate::gpu::Gpu;
 use crate::radiosity::sites::Sites;
 use crate::raytrace::MeasuringPoint;
-use crate::render::develop;
 use crate::render::picture::save_display;
+use crate::render::tone_map_on_cpu;
 use crate::scene::Scene;
 
 /// Width of the hemicube, pixels.
@@ -30,7 +30,7 @@ pub fn write_patch_view(scene: Scene, at: &MeasuringPoint, args: &RenderArgs, te
     // A fixed seed gives the same picture each time.
     let viewpoint = Sites::new(&baked.scene).viewpoint(at.position, at.normal, 0);
     let view = patch_view(&gpu, &baked, &viewpoint, SIZE_PX)?;
-    develop(view.size, view.radiance, &render_settings(args, &baked)).save(&args.output)?;
+    tone_map_on_cpu(view.size, view.radiance, &render_settings(args, &baked)).save(&args.output)?;
     let colours: Vec<Vec3> = view.items.iter().map(|item| item.map_or(Vec3::ZERO, item_colour)).collect();
     Ok(save_display(&items_path(&args.output), view.size, &colours)?)
 }

@@ -6,7 +6,7 @@ use anyhow::{Result, bail};
 use glam::Vec3;
 
 use crate::cli::terminal::Terminal;
-use crate::render::flip::magma;
+use crate::render::compare::magma;
 use crate::render::{Picture, Raster, compare, save_display, visible_difference};
 
 /// Compares the picture with the reference, and writes the visible difference (FLIP) beside it.

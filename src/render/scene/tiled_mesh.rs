@@ -153,7 +153,7 @@ impl Mesh {
     }
 }
 
-/// What the corners of a tile hold (shaders/surface.wgsl), in a texture so many texels wide.
+/// What the corners of a tile hold (shaders/surface/pass.wgsl), in a texture so many texels wide.
 fn corners_of(tile: &Tile, texture: f32) -> [[Vec3; 2]; 3] {
     // The middle of its texel.
     let first = (tile.origin.as_vec2() + 0.5) / texture;

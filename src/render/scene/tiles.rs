@@ -16,7 +16,7 @@ use crate::render::targets::HDR_FORMAT;
 pub struct Tiles {
     /// Radiance of white paint, scaled by pre-exposure.
     pub light: wgpu::TextureView,
-    /// `Element` of shaders/fill_tiles.wgsl, of each element that is in a tile.
+    /// `Element` of shaders/stored_light/light_tiles.wgsl, of each element that is in a tile.
     pub elements: wgpu::Buffer,
     /// The element of each texel, a u32, row by row.
     pub element_of: wgpu::Buffer,
@@ -39,7 +39,7 @@ pub struct HeldLight {
     pub weights: Vec<Vec3>,
 }
 
-/// `Element` of shaders/fill_tiles.wgsl.
+/// `Element` of shaders/stored_light/light_tiles.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 struct TileElement {
@@ -47,7 +47,7 @@ struct TileElement {
     corners: [u32; 3],
 }
 
-/// A texel as shaders/fill_tiles.wgsl has it: across, and in the upper half down.
+/// A texel as shaders/stored_light/light_tiles.wgsl has it: across, and in the upper half down.
 fn packed(texel: UVec2) -> u32 {
     texel.x | texel.y << 16
 }
@@ -103,7 +103,7 @@ mod tests {
     use super::*;
     use crate::baked::coarse::NOTHING;
     use crate::gpu::shader::{constant, struct_layout};
-    use crate::render::light_tiles::FILL_TILES;
+    use crate::render::stored_light::light_tiles::LIGHT_TILES;
 
     #[test]
     fn tiles_that_a_device_cannot_bind_are_not_made() {
@@ -122,7 +122,7 @@ mod tests {
     #[test]
     fn the_shader_reads_what_is_written() {
         let written = [std::mem::offset_of!(TileElement, vertices), std::mem::offset_of!(TileElement, corners)];
-        assert_eq!(struct_layout(&FILL_TILES, "Element"), [written[0], written[1], size_of::<TileElement>()]);
-        assert_eq!(constant(&FILL_TILES, "NOTHING"), NOTHING);
+        assert_eq!(struct_layout(&LIGHT_TILES, "Element"), [written[0], written[1], size_of::<TileElement>()]);
+        assert_eq!(constant(&LIGHT_TILES, "NOTHING"), NOTHING);
     }
 }

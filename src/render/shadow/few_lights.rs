@@ -12,7 +12,7 @@ use super::shadow_map::ShadowMapPass;
 use super::{ShadowSettings, ShadowTechnique};
 use crate::gpu::Gpu;
 
-/// `MAX_LIGHTS` of shaders/shared/direct_few.wgsl.
+/// `MAX_LIGHTS` of shaders/surface/direct_few.wgsl.
 const MAX_LIGHTS: usize = 4;
 
 /// What the light samples are like: one pipeline each.
@@ -27,7 +27,7 @@ pub struct Kinds {
 }
 
 impl Kinds {
-    /// Constants of shaders/shared/direct_few.wgsl.
+    /// Constants of shaders/surface/direct_few.wgsl.
     pub fn constants(&self) -> Vec<(&'static str, f64)> {
         let switch = |is_on: bool| f64::from(u8::from(is_on));
         let kinds = ["KIND_0", "KIND_1", "KIND_2", "KIND_3"].into_iter().zip(self.of_lights.map(f64::from));

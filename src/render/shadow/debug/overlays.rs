@@ -13,7 +13,7 @@ pub(in crate::render) const STENCIL_COUNTS: Shader = shader!(
     "stencil counts",
     "shared/frame.wgsl",
     "shared/colour.wgsl",
-    "shared/false_colour.wgsl",
+    "display/false_colour.wgsl",
     "stencil_counts.wgsl"
 );
 /// Depth in the faces of a shadow map.

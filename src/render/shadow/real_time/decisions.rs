@@ -1,9 +1,9 @@
 //! What a technique decides, read back pixel by pixel: for comparison, and for tests.
 
 use super::{RealTimeLight, Subject};
+use crate::gpu::readback::f32_from_half;
 use crate::gpu::readback::{read_stencil, read_texture};
 use crate::gpu::{Gpu, GpuError};
-use crate::render::picture::f32_from_half;
 use crate::render::shadow::light_targets::LightTargets;
 use crate::render::shadow::light_uniforms::LightUniforms;
 use crate::render::shadow::{ShadowSettings, ShadowTechnique, direct_light};

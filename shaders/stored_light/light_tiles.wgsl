@@ -1,4 +1,4 @@
-// The light of tiles: what white paint shows at each texel, linear in each element (src/gpu/coarse/tiles.rs).
+// The light of tiles: what white paint shows at each texel, linear in each element (src/baked/coarse/tiles.rs).
 
 const NOTHING: u32 = 0xffffffffu;
 const PI: f32 = 3.14159265358979;

@@ -5,22 +5,22 @@ use crate::gpu::shader::{Shader, shader};
 use crate::render::targets::Targets;
 
 /// Tone mapping of a picture with one sample a pixel.
-pub(in crate::render) const TONEMAP: Shader = shader!(
-    "tonemap",
+pub(in crate::render) const TONE_MAP: Shader = shader!(
+    "tone map",
     "shared/frame.wgsl",
     "shared/colour.wgsl",
-    "shared/display.wgsl",
-    "shared/samples_one.wgsl",
-    "tonemap.wgsl"
+    "display/display_colour.wgsl",
+    "display/samples_one.wgsl",
+    "display/tone_map.wgsl"
 );
 /// Tone mapping of a picture with several samples a pixel.
-pub(in crate::render) const TONEMAP_SAMPLES: Shader = shader!(
-    "tonemap samples",
+pub(in crate::render) const TONE_MAP_SAMPLES: Shader = shader!(
+    "tone map, samples",
     "shared/frame.wgsl",
     "shared/colour.wgsl",
-    "shared/display.wgsl",
-    "shared/samples_many.wgsl",
-    "tonemap.wgsl"
+    "display/display_colour.wgsl",
+    "display/samples_many.wgsl",
+    "display/tone_map.wgsl"
 );
 
 /// Tone mapping.
@@ -37,7 +37,7 @@ impl ToneMapPass {
         output_format: wgpu::TextureFormat,
         samples: u32,
     ) -> Self {
-        let shader = if samples > 1 { &TONEMAP_SAMPLES } else { &TONEMAP };
+        let shader = if samples > 1 { &TONE_MAP_SAMPLES } else { &TONE_MAP };
         let module = shader.module(gpu);
         let layout = bind_group_layout(gpu, samples > 1);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -82,7 +82,7 @@ impl ToneMapPass {
     ) {
         let hdr = targets.samples.as_ref().unwrap_or(&targets.hdr_view);
         let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("tonemap"),
+            label: Some("tone map"),
             layout: &self.layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: wgpu::BindingResource::TextureView(hdr) },
@@ -90,7 +90,7 @@ impl ToneMapPass {
             ],
         });
         let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
-            label: Some("tonemap"),
+            label: Some("tone map"),
             color_attachments: &[Some(wgpu::RenderPassColorAttachment {
                 view: target,
                 depth_slice: None,
@@ -119,7 +119,7 @@ fn bind_group_layout(gpu: &Gpu, multisampled: bool) -> wgpu::BindGroupLayout {
         min_binding_size: None,
     };
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("tonemap"),
+        label: Some("tone map"),
         entries: &[entry(0, wgpu::ShaderStages::FRAGMENT, hdr), entry(1, wgpu::ShaderStages::VERTEX, exposure)],
     })
 }

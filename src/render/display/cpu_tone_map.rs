@@ -1,13 +1,13 @@
 //! Exposure and tone mapping without a GPU: a picture that rays made, shown as the renderer shows its own.
 //!
-//! The same formulas as shaders/meter.wgsl and shaders/tonemap.wgsl, which a test holds together.
+//! The same formulas as shaders/display/light_meter.wgsl and shaders/display/tone_map.wgsl, which a test holds together.
 
 use glam::Vec3;
 
-use super::{Picture, RenderSettings, ToneMap};
 use crate::base::colour::{luminance, neutral, srgb_from_linear};
+use crate::render::{Picture, RenderSettings, ToneMap};
 
-/// The constants of shaders/meter.wgsl.
+/// The constants of shaders/display/light_meter.wgsl.
 const NUM_BINS: usize = 256;
 const STEP: usize = 2;
 const DARKEST: f32 = -20.0;
@@ -19,7 +19,7 @@ const HIGHLIGHT: f32 = 1.5;
 /// A picture of `size` pixels from linear radiance before exposure, premultiplied by the fourth channel, the share of the
 /// pixel that is covered.
 #[must_use]
-pub fn develop(size: [u32; 2], radiance: Vec<[f32; 4]>, settings: &RenderSettings) -> Picture {
+pub fn tone_map_on_cpu(size: [u32; 2], radiance: Vec<[f32; 4]>, settings: &RenderSettings) -> Picture {
     let exposure = settings.fixed_exposure().unwrap_or_else(|| metered(size, &radiance));
     let display = |(number, &pixel): (usize, &[f32; 4])| {
         let at = [number as u32 % size[0], number as u32 / size[0]];
@@ -77,7 +77,7 @@ fn display_bytes([r, g, b, coverage]: [f32; 4], at: [u32; 2], exposure: f32, set
     [byte(shown.x), byte(shown.y), byte(shown.z), 255]
 }
 
-/// Interleaved gradient noise in -0.49..0.49, as in shaders/tonemap.wgsl.
+/// Interleaved gradient noise in -0.49..0.49, as in shaders/display/tone_map.wgsl.
 fn gradient_noise([x, y]: [u32; 2]) -> f32 {
     let pattern = (x as f32 * 0.067_110_56 + y as f32 * 0.005_837_15).fract();
     (52.982_92 * pattern).fract() * 0.98 - 0.49

@@ -5,34 +5,35 @@ use crate::gpu::shader::{Shader, shader};
 use crate::render::targets::Targets;
 
 /// Metering: the exposure that suits a picture.
-pub(in crate::render) const METER: Shader = shader!("meter", "shared/frame.wgsl", "shared/colour.wgsl", "meter.wgsl");
+pub(in crate::render) const METER: Shader =
+    shader!("meter", "shared/frame.wgsl", "shared/colour.wgsl", "display/light_meter.wgsl");
 
-/// `NUM_BINS` of shaders/meter.wgsl.
+/// `NUM_BINS` of shaders/display/light_meter.wgsl.
 const NUM_BINS: u64 = 256;
 /// Invocations of a compute group each way.
 const GROUP: u32 = 16;
 
 /// What is metered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Seen {
+pub enum Metered {
     /// Radiance and coverage.
     Radiance,
     /// Luminance, where the picture itself is displayed at once.
     Luminance,
 }
 
-impl Seen {
+impl Metered {
     /// Pixels from one that is looked at to the next, each way.
     fn step(self) -> u32 {
         match self {
-            Seen::Radiance => 2,
-            Seen::Luminance => 4,
+            Metered::Radiance => 2,
+            Metered::Luminance => 4,
         }
     }
 }
 
 /// Metering.
-pub struct Meter {
+pub struct LightMeter {
     layout: wgpu::BindGroupLayout,
     count: wgpu::ComputePipeline,
     count_luminance: wgpu::ComputePipeline,
@@ -41,7 +42,7 @@ pub struct Meter {
     exposure: wgpu::Buffer,
 }
 
-impl Meter {
+impl LightMeter {
     /// Pipelines, histogram and result.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         let module = METER.module(gpu);
@@ -62,8 +63,11 @@ impl Meter {
             })
         };
         Self {
-            count: pipeline("count", &[("STEP", f64::from(Seen::Radiance.step()))]),
-            count_luminance: pipeline("count", &[("IS_LUMINANCE", 1.0), ("STEP", f64::from(Seen::Luminance.step()))]),
+            count: pipeline("count", &[("STEP", f64::from(Metered::Radiance.step()))]),
+            count_luminance: pipeline(
+                "count",
+                &[("IS_LUMINANCE", 1.0), ("STEP", f64::from(Metered::Luminance.step()))],
+            ),
             settle: pipeline("settle", &[]),
             histogram: storage(gpu, "luminance histogram", NUM_BINS * 4),
             exposure: storage(gpu, "metered exposure", 4),
@@ -87,12 +91,12 @@ impl Meter {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
-        seen: Seen,
+        seen: Metered,
         frame: &wgpu::BindGroup,
     ) {
         let (picture, count) = match seen {
-            Seen::Radiance => (&targets.hdr_view, &self.count),
-            Seen::Luminance => (targets.luminance(gpu), &self.count_luminance),
+            Metered::Radiance => (&targets.hdr_view, &self.count),
+            Metered::Luminance => (targets.luminance(gpu), &self.count_luminance),
         };
         let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("meter"),

@@ -3,16 +3,17 @@
 
 use glam::Vec3;
 
-use super::RenderSettings;
-use super::settings::MAX_GROUPS;
 use crate::base::ids::GroupId;
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
+use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
 use crate::render::scene::vertex_light::LightVersion;
+use crate::render::settings::MAX_GROUPS;
 
 /// Light of the vertices summed over the light groups.
-pub(in crate::render) const WEIGH_GROUPS: Shader = shader!("weigh groups", "shared/frame.wgsl", "weigh_groups.wgsl");
+pub(in crate::render) const WEIGHTED_LIGHT: Shader =
+    shader!("weighted light", "shared/frame.wgsl", "stored_light/weighted_light.wgsl");
 
 /// Invocations of a compute group.
 const GROUP: u32 = 64;
@@ -53,14 +54,14 @@ impl WeightedLight {
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         let layout = bind_group_layout(gpu);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("weigh groups"),
+            label: Some("weighted light"),
             bind_group_layouts: &[Some(frame_layout), Some(&layout)],
             immediate_size: 0,
         });
         let pipeline = gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some("weigh groups"),
+            label: Some("weighted light"),
             layout: Some(&pipeline_layout),
-            module: &WEIGH_GROUPS.module(gpu),
+            module: &WEIGHTED_LIGHT.module(gpu),
             entry_point: Some("weigh"),
             compilation_options: Default::default(),
             cache: None,
@@ -103,14 +104,14 @@ impl WeightedLight {
         buffer: &wgpu::Buffer,
     ) {
         let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("weigh groups"),
+            label: Some("weighted light"),
             layout: &self.layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: scene.irradiance().as_entire_binding() },
                 wgpu::BindGroupEntry { binding: 1, resource: buffer.as_entire_binding() },
             ],
         });
-        let descriptor = wgpu::ComputePassDescriptor { label: Some("weigh groups"), timestamp_writes: None };
+        let descriptor = wgpu::ComputePassDescriptor { label: Some("weighted light"), timestamp_writes: None };
         let mut pass = encoder.begin_compute_pass(&descriptor);
         pass.set_pipeline(&self.pipeline);
         pass.set_bind_group(0, frame, &[]);
@@ -141,7 +142,7 @@ fn bind_group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         count: None,
     };
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("weigh groups"),
+        label: Some("weighted light"),
         entries: &[entry(0, true), entry(1, false)],
     })
 }

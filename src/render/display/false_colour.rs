@@ -1,6 +1,6 @@
 //! Illuminance as a colour: the scale, and the colours for legends.
 //!
-//! The picture itself is coloured by shaders/shared/false_colour.wgsl; a test holds the two together.
+//! The picture itself is coloured by shaders/display/false_colour.wgsl; a test holds the two together.
 
 use glam::Vec4;
 
@@ -42,7 +42,7 @@ impl LuxScale {
     }
 
     /// `lux_scale` of shaders/shared/frame.wgsl.
-    pub(super) fn uniform(&self) -> Vec4 {
+    pub(in crate::render) fn uniform(&self) -> Vec4 {
         let Self { low, high, .. } = self.in_order();
         Vec4::new(low, high, f32::from(u8::from(self.is_logarithmic)), self.num_parts as f32)
     }

@@ -9,9 +9,9 @@ use std::path::Path;
 use glam::Vec3;
 
 use super::flip::flip;
-use super::picture::FileKind;
-use super::{Picture, RenderError};
+
 use crate::base::colour::{linear_from_srgb, luminance};
+use crate::render::{FileKind, Picture, RenderError};
 
 /// A difference of CIELAB colours that an eye just notices side by side (Mahy et al. 1994).
 const PERCEPTIBLE_STEP: f32 = 2.3;

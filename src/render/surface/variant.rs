@@ -1,11 +1,11 @@
 //! Pipelines of the surface pass: one for each kind of surface and each way to show it, so that shaders have no branches.
 
-use super::weighted_light::WeightedLight;
-use super::{RenderSettings, Shading, ToneMap};
 use crate::gpu::Gpu;
 use crate::render::scene::draw_batch::{DrawBatch, Faces};
 use crate::render::scene::gpu_vertex::GpuVertex;
+use crate::render::stored_light::weighted_light::WeightedLight;
 use crate::render::targets::{DEPTH_FORMAT, HDR_FORMAT, LUMINANCE_FORMAT};
+use crate::render::{RenderSettings, Shading, ToneMap};
 use crate::scene::AlphaMode;
 
 /// Colour is premultiplied and coverage adds up under it.

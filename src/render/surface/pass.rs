@@ -2,98 +2,17 @@
 
 use std::collections::HashMap;
 
-use super::RenderSettings;
-use super::shadow::few_lights::{self, Kinds};
-use super::shadow::real_time::LiveLight;
-use super::surface_targets::SurfaceTargets;
-use super::surface_variant::Variant;
+use super::direct_source::DirectSource;
+use super::targets::SurfaceTargets;
+use super::variant::Variant;
 use crate::gpu::Gpu;
-use crate::gpu::shader::{Shader, shader};
+use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
 use crate::render::scene::draw_batch::DrawBatch;
 use crate::render::scene::materials::material_layout;
+use crate::render::shadow::few_lights::Kinds;
+use crate::render::shadow::real_time::LiveLight;
 use crate::render::targets::HDR_FORMAT;
-
-/// Surface pass: radiance of each visible point.
-pub(in crate::render) const SURFACE: Shader = shader!(
-    "surface",
-    "shared/frame.wgsl",
-    "shared/colour.wgsl",
-    "shared/display.wgsl",
-    "shared/false_colour.wgsl",
-    "shared/material.wgsl",
-    "shared/varying.wgsl",
-    "surface.wgsl",
-    "shared/direct_stored.wgsl"
-);
-/// Surface pass with the light of the vertices in tiles.
-pub(in crate::render) const SURFACE_TILES: Shader = shader!(
-    "surface, tiles",
-    "shared/frame.wgsl",
-    "shared/colour.wgsl",
-    "shared/display.wgsl",
-    "shared/false_colour.wgsl",
-    "shared/material.wgsl",
-    "shared/varying_tiles.wgsl",
-    "surface.wgsl",
-    "shared/direct_stored.wgsl"
-);
-/// Surface pass with direct irradiance from a texture with one sample a pixel.
-pub(in crate::render) const SURFACE_LIT: Shader = shader!(
-    "surface lit",
-    "shared/frame.wgsl",
-    "shared/colour.wgsl",
-    "shared/display.wgsl",
-    "shared/false_colour.wgsl",
-    "shared/material.wgsl",
-    "shared/varying.wgsl",
-    "surface.wgsl",
-    "shared/direct_one.wgsl"
-);
-/// Surface pass with direct irradiance from a texture with several samples a pixel.
-pub(in crate::render) const SURFACE_LIT_SAMPLES: Shader = shader!(
-    "surface lit samples",
-    "shared/frame.wgsl",
-    "shared/colour.wgsl",
-    "shared/display.wgsl",
-    "shared/false_colour.wgsl",
-    "shared/material.wgsl",
-    "shared/varying.wgsl",
-    "surface.wgsl",
-    "shared/direct_many.wgsl"
-);
-/// Surface pass with the direct light of a few light samples.
-pub(in crate::render) const SURFACE_FEW_LIGHTS: Shader = shader!(
-    "surface few lights",
-    "shared/frame.wgsl",
-    "shared/colour.wgsl",
-    "shared/display.wgsl",
-    "shared/false_colour.wgsl",
-    "shared/material.wgsl",
-    "shared/facet.wgsl",
-    "shared/light_sample.wgsl",
-    "shared/shadow_map.wgsl",
-    "shared/map_lookup.wgsl",
-    "shared/varying_few.wgsl",
-    "surface.wgsl",
-    "shared/direct_few.wgsl"
-);
-/// The same with the light of the vertices in tiles.
-pub(in crate::render) const SURFACE_FEW_LIGHTS_TILES: Shader = shader!(
-    "surface few lights, tiles",
-    "shared/frame.wgsl",
-    "shared/colour.wgsl",
-    "shared/display.wgsl",
-    "shared/false_colour.wgsl",
-    "shared/material.wgsl",
-    "shared/facet.wgsl",
-    "shared/light_sample.wgsl",
-    "shared/shadow_map.wgsl",
-    "shared/map_lookup.wgsl",
-    "shared/varying_few_tiles.wgsl",
-    "surface.wgsl",
-    "shared/direct_few.wgsl"
-);
 
 /// Pipelines that are kept; those of a look are a few, and a software driver keeps a megabyte for each.
 const MOST_PIPELINES: usize = 16;
@@ -116,62 +35,6 @@ pub struct SurfacePass {
     no_tiles: wgpu::TextureView,
     /// Of bind group 3, where there is one.
     direct_layout: Option<wgpu::BindGroupLayout>,
-}
-
-/// Where direct light comes from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum DirectSource {
-    /// The vertices, as baked.
-    Stored,
-    /// A texture of irradiance, one value a pixel.
-    Pixels,
-    /// A texture of irradiance with several samples a pixel.
-    Samples,
-    /// A few light samples, in the shadows of their maps.
-    Few,
-}
-
-impl DirectSource {
-    /// Where it comes from with this light of the lights themselves.
-    pub fn of(live: Option<&LiveLight>) -> Self {
-        match live {
-            None => DirectSource::Stored,
-            Some(LiveLight::Pixels(_)) => DirectSource::Pixels,
-            Some(LiveLight::Samples(_)) => DirectSource::Samples,
-            Some(LiveLight::Few(_)) => DirectSource::Few,
-        }
-    }
-
-    /// Surfaces are drawn as their coarse mesh has them: where no texture tells the light of pixels that the elements cover.
-    pub fn shows_tiles(self) -> bool {
-        self.tiled_shader().is_some()
-    }
-
-    fn tiled_shader(self) -> Option<&'static Shader> {
-        match self {
-            DirectSource::Stored => Some(&SURFACE_TILES),
-            DirectSource::Few => Some(&SURFACE_FEW_LIGHTS_TILES),
-            DirectSource::Pixels | DirectSource::Samples => None,
-        }
-    }
-
-    fn shader(self) -> &'static Shader {
-        match self {
-            DirectSource::Stored => &SURFACE,
-            DirectSource::Pixels => &SURFACE_LIT,
-            DirectSource::Samples => &SURFACE_LIT_SAMPLES,
-            DirectSource::Few => &SURFACE_FEW_LIGHTS,
-        }
-    }
-
-    fn layout(self, gpu: &Gpu) -> Option<wgpu::BindGroupLayout> {
-        match self {
-            DirectSource::Stored => None,
-            DirectSource::Pixels => Some(texture_layout(gpu, false)),
-            DirectSource::Samples => Some(texture_layout(gpu, true)),
-            DirectSource::Few => Some(few_lights::layout(gpu)),
-        }
-    }
 }
 
 /// Exposure as the light meter leaves it, one f32; the tiles of a coarse mesh and how they are sampled.
@@ -210,21 +73,6 @@ fn no_tiles(gpu: &Gpu) -> wgpu::TextureView {
         view_formats: &[],
     });
     texture.create_view(&Default::default())
-}
-
-fn texture_layout(gpu: &Gpu, multisampled: bool) -> wgpu::BindGroupLayout {
-    let texture = wgpu::BindGroupLayoutEntry {
-        binding: 0,
-        visibility: wgpu::ShaderStages::FRAGMENT,
-        ty: wgpu::BindingType::Texture {
-            sample_type: wgpu::TextureSampleType::Float { filterable: false },
-            view_dimension: wgpu::TextureViewDimension::D2,
-            multisampled,
-        },
-        count: None,
-    };
-    let descriptor = wgpu::BindGroupLayoutDescriptor { label: Some("direct irradiance"), entries: &[texture] };
-    gpu.device.create_bind_group_layout(&descriptor)
 }
 
 impl SurfacePass {

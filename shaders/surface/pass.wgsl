@@ -2,7 +2,7 @@
 //
 //   L = emission + rho / pi x sum over groups of weight x (direct x E_direct + indirect x E_indirect)
 //
-// Irradiance E was summed over the groups at the vertices (shaders/weigh_groups.wgsl) and is interpolated; rho and
+// Irradiance E was summed over the groups at the vertices (shaders/stored_light/weighted_light.wgsl) and is interpolated; rho and
 // emission are read per pixel, so textures stay sharp. What is linear in a triangle is found at its vertices.
 
 // What is shown, fixed when a pipeline is made.
@@ -30,7 +30,7 @@ override IS_UNLIT: bool = false;
 override METAL_AS_DIFFUSE: bool = true;
 
 @group(1) @binding(0) var<storage, read> metered_exposure: f32;
-// Light of the vertices, where it lies in tiles (shaders/fill_tiles.wgsl).
+// Light of the vertices, where it lies in tiles (shaders/stored_light/light_tiles.wgsl).
 @group(1) @binding(1) var tiles: texture_2d<f32>;
 @group(1) @binding(2) var between_texels: sampler;
 

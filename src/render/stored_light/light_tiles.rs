@@ -5,16 +5,17 @@ use std::sync::PoisonError;
 
 use glam::Vec3;
 
-use super::RenderSettings;
-use super::settings::MAX_GROUPS;
 use crate::base::ids::GroupId;
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
+use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
 use crate::render::scene::tiles::{HeldLight, Tiles};
+use crate::render::settings::MAX_GROUPS;
 
 /// Light of the vertices spread over the tiles of a coarse mesh.
-pub(in crate::render) const FILL_TILES: Shader = shader!("fill tiles", "shared/frame.wgsl", "fill_tiles.wgsl");
+pub(in crate::render) const LIGHT_TILES: Shader =
+    shader!("light tiles", "shared/frame.wgsl", "stored_light/light_tiles.wgsl");
 
 /// Invocations of a compute group.
 const GROUP: u32 = 64;
@@ -41,7 +42,7 @@ impl TileFiller {
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         let layout = bind_group_layout(gpu);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("fill tiles"),
+            label: Some("light tiles"),
             bind_group_layouts: &[Some(frame_layout), Some(&layout)],
             immediate_size: 0,
         });
@@ -68,7 +69,7 @@ impl TileFiller {
         }
         *held = Some(wanted);
         let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
-            label: Some("fill tiles"),
+            label: Some("light tiles"),
             layout: &self.layout,
             entries: &[
                 wgpu::BindGroupEntry { binding: 0, resource: weighted.as_entire_binding() },
@@ -81,7 +82,7 @@ impl TileFiller {
         });
         let pipelines = self.pipelines.entry(lit_by_lights);
         let pipelines = pipelines.or_insert_with(|| Pipelines::new(gpu, &self.pipeline_layout, lit_by_lights));
-        let descriptor = wgpu::ComputePassDescriptor { label: Some("fill tiles"), timestamp_writes: None };
+        let descriptor = wgpu::ComputePassDescriptor { label: Some("light tiles"), timestamp_writes: None };
         let mut pass = encoder.begin_compute_pass(&descriptor);
         pass.set_bind_group(0, frame, &[]);
         pass.set_bind_group(1, &bindings, &[]);
@@ -105,11 +106,11 @@ fn weights(settings: &RenderSettings, lit_by_lights: bool) -> Vec<Vec3> {
 
 impl Pipelines {
     fn new(gpu: &Gpu, layout: &wgpu::PipelineLayout, lit_by_lights: bool) -> Self {
-        let module = FILL_TILES.module(gpu);
+        let module = LIGHT_TILES.module(gpu);
         let constants = [("LIT_BY_LIGHTS", f64::from(u8::from(lit_by_lights)))];
         let pipeline = |entry_point| {
             gpu.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-                label: Some("fill tiles"),
+                label: Some("light tiles"),
                 layout: Some(layout),
                 module: &module,
                 entry_point: Some(entry_point),
@@ -135,7 +136,7 @@ fn bind_group_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
         view_dimension: wgpu::TextureViewDimension::D2,
     };
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-        label: Some("fill tiles"),
+        label: Some("light tiles"),
         entries: &[
             entry(0, buffer(true)),
             entry(1, buffer(true)),

@@ -1,9 +1,9 @@
 //! What the surface pass draws into: radiance for all that comes after, or at once what the screen shows.
 
-use super::RenderSettings;
-use super::surface_variant::Output;
+use super::variant::Output;
 use crate::base::colour::srgb_from_linear;
 use crate::gpu::Gpu;
+use crate::render::RenderSettings;
 use crate::render::targets::Targets;
 
 /// What is drawn into, all of one size.

@@ -1,0 +1,6 @@
+//! From radiance to what the screen shows: exposure, tone mapping, false colours.
+
+pub mod cpu_tone_map;
+pub mod false_colour;
+pub mod light_meter;
+pub mod tone_map;

@@ -1,0 +1,9 @@
+//! Surface pass: the radiance that leaves every visible point towards the eye.
+//!
+//! [`pass`] draws the scene with the pipelines of [`variant`] into the targets of [`targets`]; [`direct_source`] names the
+//! places that direct light comes from, each with a shader of its own.
+
+pub mod direct_source;
+pub mod pass;
+pub mod targets;
+pub mod variant;
