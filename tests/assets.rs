@@ -1,6 +1,6 @@
-//! The scenes in assets/ are what the generator makes now.
+//! The files in assets/ equal the output of their generators.
 //!
-//! `UPDATE_ASSETS=1 cargo test` (or `make assets`) writes them anew.
+//! `UPDATE_ASSETS=1 cargo test` (or `make assets`) writes the files.
 
 use std::path::Path;
 
@@ -17,6 +17,6 @@ fn stored_scenes_equal_generated_ones() {
             std::fs::write(&file, &generated).expect("assets/ can be written");
         }
         let stored = std::fs::read(&file).unwrap_or_default();
-        assert!(stored == generated, "assets/{name}.glb is not what the generator makes; `make assets` writes it");
+        assert!(stored == generated, "assets/{name}.glb differs from its generator; `make assets` writes it");
     }
 }

@@ -1,4 +1,4 @@
-//! Bad input: every file loads or ends in one clear line, never in a panic.
+//! Invalid input: every file either loads or yields an error of one line; nothing panics.
 
 use std::fs;
 use std::io::Cursor;
@@ -56,7 +56,7 @@ fn triangle_bytes() -> Vec<u8> {
     [positions, indices, uv, png()].concat()
 }
 
-/// A binary glTF of these two chunks.
+/// A .glb file with these two chunks.
 fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
     let mut text = json.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
@@ -73,8 +73,8 @@ fn good_glb() -> Vec<u8> {
     glb(&triangle_json(), &triangle_bytes())
 }
 
-/// Loads, fails the test on a panic, and checks that an error is one line.
-fn load_calmly(what: &str, load: impl FnOnce() -> Result<Scene, LoadError>) -> Result<Scene, LoadError> {
+/// Calls `load`, fails the test if it panics, and checks that an error has one line.
+fn load_without_panic(what: &str, load: impl FnOnce() -> Result<Scene, LoadError>) -> Result<Scene, LoadError> {
     let result = catch_unwind(AssertUnwindSafe(load)).unwrap_or_else(|_| panic!("{what} made the loader panic"));
     if let Err(error) = &result {
         let line = error.to_string();
@@ -83,16 +83,16 @@ fn load_calmly(what: &str, load: impl FnOnce() -> Result<Scene, LoadError>) -> R
     result
 }
 
-/// Writes `bytes` to a file of this name and checks that loading it ends in an error with that name and this cause.
+/// Writes `bytes` to a file of this name and checks that loading it returns an error with this name and this cause.
 fn assert_error(name: &str, bytes: &[u8], cause: &str) {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let path = folder.path().join(name);
     fs::write(&path, bytes).expect("it can be written");
-    let error = load_calmly(name, || gltf::load(&path)).expect_err("the file is bad").to_string();
-    assert!(error.contains(name) && error.contains(cause), "{error:?} should name {name} and say {cause:?}");
+    let error = load_without_panic(name, || gltf::load(&path)).expect_err("the file is bad").to_string();
+    assert!(error.contains(name) && error.contains(cause), "{error:?} should contain {name} and {cause:?}");
 }
 
-/// As [`assert_error`] for the good triangle with one value of its JSON changed.
+/// As [`assert_error`], for the valid triangle with one value of its JSON changed.
 fn assert_json_error(place: &str, value: Value, cause: &str) {
     let mut json = triangle_json();
     *json.pointer_mut(place).expect("the place exists") = value;
@@ -100,7 +100,7 @@ fn assert_json_error(place: &str, value: Value, cause: &str) {
 }
 
 #[test]
-fn the_good_triangle_loads_without_notes() {
+fn the_valid_triangle_loads_without_notes() {
     let scene = gltf::from_slice("triangle", &good_glb()).expect("it is valid");
     assert_eq!((scene.triangles.len(), scene.lights.len(), scene.textures.len()), (1, 1, 1));
     assert_eq!(scene.light_groups, ["light 0", "material 0"]);
@@ -108,7 +108,7 @@ fn the_good_triangle_loads_without_notes() {
 }
 
 #[test]
-fn a_missing_file_and_a_folder_are_named() {
+fn a_missing_file_and_a_folder_are_errors_with_their_name() {
     let error = gltf::load(Path::new("no/such/scene.glb")).expect_err("it is not there").to_string();
     assert_eq!(error, "no/such/scene.glb: there is no such file");
     let error = gltf::load(Path::new("tests")).expect_err("it is no file").to_string();
@@ -116,7 +116,7 @@ fn a_missing_file_and_a_folder_are_named() {
 }
 
 #[test]
-fn files_that_are_not_gltf_are_named() {
+fn files_that_are_not_gltf_are_errors_with_their_name() {
     assert_error("poem.glb", b"Roses are red", "not a glTF file");
     assert_error("empty.glb", b"", "not a glTF file");
     assert_error("list.gltf", b"[1, 2]", "version");
@@ -134,14 +134,14 @@ fn a_file_cut_off_anywhere_is_an_error() {
 }
 
 #[test]
-fn a_required_extension_that_we_lack_is_named_with_a_way_out() {
+fn a_required_unsupported_extension_is_an_error_with_advice() {
     let mut json = triangle_json();
     json["extensionsRequired"] = json!(["EXT_texture_avif"]);
     assert_error("avif.glb", &glb(&json, &triangle_bytes()), "gltf-transform png");
 }
 
 #[test]
-fn broken_values_are_named() {
+fn invalid_values_are_errors_with_their_item() {
     assert_json_error("/nodes/2/extensions", json!({"KHR_lights_punctual": {"light": 5}}), "node 2 refers to light 5");
     assert_json_error("/nodes/0/children", json!([0]), "node 0 occurs twice");
     assert_json_error("/accessors/1/count", json!(4), "accessor 1");
@@ -155,14 +155,14 @@ fn broken_values_are_named() {
 }
 
 #[test]
-fn a_position_that_is_not_a_number_is_named() {
+fn a_position_of_nan_is_an_error_with_its_accessor() {
     let mut bytes = triangle_bytes();
     bytes[..4].copy_from_slice(&f32::NAN.to_le_bytes());
     assert_error("nan.glb", &glb(&triangle_json(), &bytes), "accessor 0: it holds NaN");
 }
 
 #[test]
-fn buffers_are_read_from_the_folder_of_the_scene_and_from_nowhere_else() {
+fn buffers_are_read_only_from_the_folder_of_the_scene() {
     let folder = tempfile::tempdir().expect("a folder for the test");
     let inner = folder.path().join("inner");
     fs::create_dir(&inner).expect("it can be made");
@@ -182,7 +182,7 @@ fn buffers_are_read_from_the_folder_of_the_scene_and_from_nowhere_else() {
     }
 }
 
-/// Instances multiply: a small file may ask for more than fits in memory, and must be refused before it is tried.
+/// Instances multiply: a small file may describe more than fits into memory. It is refused before memory is allocated.
 #[test]
 fn a_small_file_with_a_huge_scene_is_refused() {
     let mut json = triangle_json();
@@ -193,7 +193,7 @@ fn a_small_file_with_a_huge_scene_is_refused() {
     assert_error("huge.glb", &glb(&json, &triangle_bytes()), "too large");
 }
 
-/// Flips, overwrites and cuts bytes of a good file, the same way in every run.
+/// The bytes of a valid file with some flipped, overwritten or cut off; the same in every run.
 fn corrupted(good: &[u8], variant: u32) -> Vec<u8> {
     let mut bytes = good.to_vec();
     let mut state = variant;
@@ -220,23 +220,24 @@ fn corrupted_files_never_panic() {
     let good = good_glb();
     let loads = |variant: &u32| {
         let bytes = corrupted(&good, *variant);
-        load_calmly(&format!("variant {variant}"), || gltf::from_slice("corrupted", &bytes)).is_ok()
+        load_without_panic(&format!("variant {variant}"), || gltf::from_slice("corrupted", &bytes)).is_ok()
     };
     let num_loaded = (0..300).filter(loads).count();
     assert!((1..300).contains(&num_loaded), "{num_loaded} of 300 loaded: the corruption tests nothing");
 }
 
-/// Longest that a file of the corpus may take; the machine may be busy.
+/// Longest time for a file of the corpus, generous because the machine may be busy.
 const MAX_SECONDS: f32 = 5.0;
 
-/// Files on which a fuzzer once made the loader or the doctor fail.
+/// Files with which a fuzzer once made the loader or the doctor fail.
 #[test]
-fn files_that_once_crashed_do_so_no_more() {
+fn files_that_once_caused_a_crash_do_not_panic() {
     let mut num_files = 0;
     for entry in fs::read_dir("tests/crashes").expect("the folder is there").flatten() {
         let bytes = fs::read(entry.path()).expect("it can be read");
         let name = entry.path().display().to_string();
-        let _ = load_calmly(&name, || gltf::from_slice(&name, &bytes)).map(|scene| doctor::examine(&scene).lines());
+        let _ =
+            load_without_panic(&name, || gltf::from_slice(&name, &bytes)).map(|scene| doctor::examine(&scene).lines());
         num_files += 1;
     }
     assert!(num_files > 0, "the folder of crashes is empty");
@@ -254,7 +255,7 @@ fn scenes_below(folder: &Path, found: &mut Vec<PathBuf>) {
 }
 
 #[test]
-fn every_file_of_the_corpus_loads_or_ends_in_one_line() {
+fn every_file_of_the_corpus_loads_or_yields_an_error_of_one_line() {
     let shared = std::env::var_os("HEMICUBE_SHARED").map_or_else(|| PathBuf::from("../shared"), PathBuf::from);
     let mut files = Vec::new();
     scenes_below(&shared.join("corpus"), &mut files);
@@ -262,9 +263,9 @@ fn every_file_of_the_corpus_loads_or_ends_in_one_line() {
         println!("skipped: no corpus of glTF files in {}", shared.display());
     }
     for file in files {
-        // Whether it loads is the file's affair.
+        // The file may be valid or not.
         let start = Instant::now();
-        let scene = load_calmly(&file.display().to_string(), || gltf::load(&file));
+        let scene = load_without_panic(&file.display().to_string(), || gltf::load(&file));
         let _ = scene.map(|scene| doctor::examine(&scene));
         assert!(start.elapsed().as_secs_f32() < MAX_SECONDS, "{} took {:?}", file.display(), start.elapsed());
     }

@@ -1,6 +1,6 @@
-//! Files that use an extension look like their twins in plain glTF.
+//! Files with extensions look like their twins in plain glTF.
 //!
-//! `tests/interop/make_files.mjs` made them with other people's encoders.
+//! `tests/interop/make_files.mjs` writes them with third-party encoders.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ use crate::support::device::gpu;
 
 const SIZE: [u32; 2] = [96, 96];
 
-/// Files with their twin, the largest relative error of their pictures, and what makes an error.
+/// Each file with its twin, the tolerated relative error of its picture, and the cause of the error.
 const TWINS: [(&str, &str, f64); 15] = [
     ("bytes", "plain", 0.004),             // colours in 256 steps
     ("words", "plain", 0.001),             // colours in 65,536 steps
@@ -41,7 +41,7 @@ fn scene(name: &str) -> Scene {
     load(&path(name)).unwrap()
 }
 
-/// A picture in even light, which shows reflectance: shape, colours and textures.
+/// A picture in uniform ambient light, which shows shape, colours and textures.
 fn shown(scene: Scene) -> Option<Raster> {
     let camera = scene.cameras[0].clone();
     let baked = BakedScene { light: VertexLight::dark(0, scene.vertices.len()), scene };
@@ -56,7 +56,7 @@ fn shown(scene: Scene) -> Option<Raster> {
     Some(Raster::of(&picture, hemicube::render::FileKind::Radiance))
 }
 
-/// Relative error of one picture against another; none where there is no GPU.
+/// Relative error between the pictures of two scenes; `None` without a GPU.
 fn error(one: Scene, other: Scene) -> Option<f64> {
     Some(f64::from(compare(&shown(one)?, &shown(other)?).unwrap().relative_rmse))
 }
@@ -70,7 +70,7 @@ fn every_file_looks_like_its_plain_twin() {
     }
 }
 
-/// ETC1S is a coarse code; the picture still is the same to the eye.
+/// ETC1S compresses strongly; the error stays small to the eye.
 #[test]
 fn etc1s_looks_like_its_plain_twin() {
     let Some(error) = error(scene("basisu_etc1s"), scene("plain")) else { return };
@@ -78,7 +78,7 @@ fn etc1s_looks_like_its_plain_twin() {
 }
 
 #[test]
-fn the_comparison_would_notice_another_shape_or_picture() {
+fn the_comparison_detects_a_different_shape_or_texture() {
     let mut bare = scene("plain");
     bare.materials[0].base_colour_texture = None;
     let mut thin = scene("plain");
@@ -90,7 +90,7 @@ fn the_comparison_would_notice_another_shape_or_picture() {
 }
 
 #[test]
-fn geometry_is_that_of_the_twin() {
+fn the_geometry_equals_that_of_the_twin() {
     for (name, twin, _) in TWINS {
         let (scene, twin) = (scene(name), scene(twin));
         assert_eq!(scene.triangles.len(), twin.triangles.len(), "{name}");
@@ -101,7 +101,7 @@ fn geometry_is_that_of_the_twin() {
 }
 
 #[test]
-fn a_photometric_file_of_even_light_shines_as_a_point() {
+fn a_uniform_photometric_light_equals_a_point_light() {
     let [point, photometric] = [scene("point_light"), scene("photometric_light")].map(|scene| scene.lights[0].clone());
     assert!(point.profile.is_none() && photometric.profile.is_some());
     for at in [Vec3::ZERO, Vec3::new(1.0, 9.0, 2.0), Vec3::new(-4.0, 2.0, 7.0)] {
@@ -110,7 +110,7 @@ fn a_photometric_file_of_even_light_shines_as_a_point() {
     }
 }
 
-/// The later extension is the earlier one by another name.
+/// KHR_meshopt_compression has the same JSON as EXT_meshopt_compression.
 #[test]
 fn khr_meshopt_compression_reads_as_ext() {
     let bytes = std::fs::read(path("meshopt")).unwrap();

@@ -1,4 +1,4 @@
-//! A file with stored light can be written again, and reads back as the same light.
+//! A file with baked light can be written again, and loading the result gives the same light.
 
 #![no_main]
 
@@ -14,7 +14,7 @@ fuzz_target!(|data: &[u8]| {
     let written = to_glb(&first, suited(&first)).expect("small");
     let reloaded = from_slice("written", &written).expect("what we write, we read");
     assert_eq!(first.scene.triangles.len(), reloaded.triangles.len());
-    // Vertices that no triangle uses are not written, nor is light on them.
+    // Unused vertices and their light are not written.
     if !first.scene.triangles.is_empty() {
         let second = from_scene(reloaded).expect("it has light");
         assert_eq!(first.light.groups.len(), second.light.groups.len());
@@ -22,7 +22,7 @@ fuzz_target!(|data: &[u8]| {
     }
 });
 
-/// The light at the corners of all triangles, whose order may differ: bits, sorted.
+/// Bits of the light at the corners of all triangles, sorted, because the order of triangles may differ.
 fn corner_light(baked: &BakedScene) -> Vec<[u32; 3]> {
     let corners = baked.scene.triangles.iter().flat_map(|triangle| triangle.vertices);
     let groups = &baked.light.groups;

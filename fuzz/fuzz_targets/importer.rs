@@ -1,4 +1,4 @@
-//! Any bytes are a scene or end in one error of one line; the mesh doctor has an answer for every scene.
+//! Any bytes either load as a scene or yield an error of one line, and the mesh doctor examines every scene.
 
 #![no_main]
 

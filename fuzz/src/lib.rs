@@ -1,4 +1,4 @@
-//! The lower floors of hemicube, without windows and graphics cards: they build in a minute.
+//! The lower floors of Hemicube without the GPU, the viewer and the command line: they build in a minute.
 
 #[path = "../../src/baked/mod.rs"]
 pub mod baked;
@@ -7,8 +7,8 @@ pub mod base;
 #[path = "../../src/scene/mod.rs"]
 pub mod scene;
 
-/// A .glb of what a fuzzer made up: as it is where it begins with `glTF`, else a JSON half and a binary half, parted by
-/// the first zero byte, in a sound container, so that the fuzzer need not learn lengths.
+/// A .glb file from the fuzzer's bytes: unchanged if they begin with `glTF`, else a valid container of the JSON before the
+/// first zero byte and the binary chunk after it, so that the fuzzer need not find valid lengths.
 #[must_use]
 pub fn glb_of(data: &[u8]) -> Vec<u8> {
     if data.starts_with(b"glTF") {

@@ -1,6 +1,6 @@
-//! Triangles in chunks that are drawn or left out together, each as compact as can be.
+//! Order of triangles in compact chunks of fixed size, which are culled as a whole.
 //!
-//! Source: MacDonald, Booth 1990, "Heuristics for ray tracing using space subdivision" (the surface area heuristic).
+//! Source: MacDonald and Booth 1990, "Heuristics for Ray Tracing Using Space Subdivision" (the surface area heuristic).
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -8,10 +8,11 @@ use rayon::prelude::*;
 use crate::base::bounds::Bounds;
 use crate::base::ids::TriangleId;
 
-/// Triangles that are drawn or left out together.
+/// Triangles per chunk.
 pub const CHUNK: usize = 64;
 
-/// Some triangles, chunk by chunk; those of a chunk, and chunks, lie near those beside them.
+/// Spatial order of some triangles: each run of [`CHUNK`] triangles is a compact chunk, and neighbouring chunks are near each
+/// other.
 pub fn spatial_order(
     corners: impl Fn(TriangleId) -> [Vec3; 3],
     triangles: impl Iterator<Item = TriangleId>,
@@ -26,7 +27,7 @@ pub fn spatial_order(
     triangles.into_iter().map(|triangle| triangle.id).collect()
 }
 
-/// The boxes of the chunks of triangles in this order.
+/// Bounds of the chunks of triangles in this order.
 pub fn chunk_bounds(corners: impl Fn(TriangleId) -> [Vec3; 3], order: &[TriangleId]) -> Vec<Bounds> {
     order.chunks(CHUNK).map(|chunk| Bounds::of(chunk.iter().flat_map(|&t| corners(t)))).collect()
 }
@@ -38,8 +39,7 @@ struct Placed {
     centroid: Vec3,
 }
 
-/// Parts the triangles in two between chunks, where the boxes of both parts have the least area for what they hold, and
-/// each part in turn.
+/// Splits the triangles in two at a multiple of [`CHUNK`] with the least cost of the surface area heuristic, and then each part.
 fn sort(triangles: &mut [Placed]) {
     if triangles.len() <= CHUNK {
         return;
@@ -63,7 +63,7 @@ fn sort_along(triangles: &mut [Placed], axis: usize) {
     triangles.par_sort_unstable_by(|a, b| a.centroid[axis].total_cmp(&b.centroid[axis]).then(a.id.cmp(&b.id)));
 }
 
-/// Cost of parting after each chunk but the last: area of the box x chunks, of both sides.
+/// Cost of a split after each chunk but the last: sum over both sides of surface area x number of chunks.
 fn costs(triangles: &[Placed]) -> Vec<f32> {
     let chunks: Vec<Bounds> =
         triangles.chunks(CHUNK).map(|chunk| chunk.iter().fold(Bounds::EMPTY, |sum, t| sum.joined(t.bounds))).collect();
@@ -86,14 +86,14 @@ mod tests {
     use crate::scene::builtin;
 
     #[test]
-    fn chunks_hold_every_triangle_once_in_less_room_than_the_file_gives_them() {
+    fn chunks_hold_every_triangle_once_and_are_more_compact_than_in_file_order() {
         let scene = builtin::gallery();
         let corners = |t| scene.corners(t);
         let order = spatial_order(corners, (0..scene.triangles.len()).map(TriangleId::new));
         let mut sorted = order.clone();
         sorted.sort_unstable();
         assert!(sorted.iter().enumerate().all(|(t, id)| id.index() == t) && sorted.len() == scene.triangles.len());
-        let room = |order: &[TriangleId]| -> f32 { chunk_bounds(corners, order).iter().map(Bounds::half_area).sum() };
-        assert!(room(&order) < 0.8 * room(&sorted), "{} of {}", room(&order), room(&sorted));
+        let area = |order: &[TriangleId]| -> f32 { chunk_bounds(corners, order).iter().map(Bounds::half_area).sum() };
+        assert!(area(&order) < 0.8 * area(&sorted), "{} of {}", area(&order), area(&sorted));
     }
 }

@@ -1,14 +1,14 @@
-//! Materials as transport and display see them.
+//! Materials, and their optical properties at a point.
 
 use glam::{Vec2, Vec3, Vec4};
 
 use super::texture::{Texture, TextureSlot};
 use crate::base::ids::GroupId;
 
-/// Largest reflectance that transport uses; brighter surfaces are clamped (and the user is told).
+/// Largest reflectance in light transport. Brighter materials are clamped, and the loader notes it.
 pub const MAX_REFLECTANCE: f32 = 0.99;
 
-/// A glTF material, reduced to what light needs.
+/// A glTF material, as far as it matters for light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Name in the file.
@@ -27,23 +27,23 @@ pub struct Material {
     pub normal_texture: Option<(TextureSlot, f32)>,
     /// Emitted radiance: factor x strength, nit per channel.
     pub emission: Vec3,
-    /// Emission texture (sRGB), multiplied in.
+    /// Emission texture (sRGB), a factor of `emission`.
     pub emissive_texture: Option<TextureSlot>,
-    /// Light group of the emission; meaningless where nothing is emitted.
+    /// Light group of the emission; `None` if the material emits nothing.
     pub group: Option<GroupId>,
-    /// How alpha acts.
+    /// Meaning of alpha.
     pub alpha_mode: AlphaMode,
     /// Both faces reflect and emit.
     pub double_sided: bool,
-    /// KHR_materials_unlit: blocks light, reflects none.
+    /// KHR_materials_unlit: the surface blocks light and reflects none.
     pub unlit: bool,
-    /// Share of light that passes (KHR_materials_transmission); second pass only.
+    /// Share of the light that is transmitted (KHR_materials_transmission); used by ray tracing only.
     pub transmission: f32,
-    /// Index of refraction; second pass only.
+    /// Index of refraction; used by ray tracing only.
     pub ior: f32,
 }
 
-/// How alpha acts.
+/// Meaning of alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaMode {
     /// Alpha is ignored.
@@ -53,7 +53,7 @@ pub enum AlphaMode {
         /// Smallest alpha that is solid.
         cutoff: f32,
     },
-    /// Passes 1 - alpha of the light.
+    /// The share 1 - alpha of the light passes.
     Blend,
 }
 
@@ -80,12 +80,12 @@ impl Default for Material {
     }
 }
 
-/// What the surface is at one point.
+/// Optical properties of a surface at one point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// Diffuse reflectance per channel, at most [`MAX_REFLECTANCE`].
     pub reflectance: Vec3,
-    /// Reflectance of the metal's sheen where it is met head-on (base colour x metallic); no part of radiosity.
+    /// Specular reflectance of the metal at normal incidence (base colour x metallic); no part of radiosity.
     pub metal: Vec3,
     /// 0 mirror .. 1 rough.
     pub roughness: f32,
@@ -93,7 +93,7 @@ pub struct SurfacePoint {
     pub base_colour: Vec3,
     /// Emitted radiance, nit per channel.
     pub emission: Vec3,
-    /// Share of light that is stopped: 1 solid, 0 hole; MASK is already decided.
+    /// Share of the light that is blocked: 1 solid, 0 hole; exactly 0 or 1 for alpha mode MASK.
     pub opacity: f32,
 }
 
@@ -110,7 +110,10 @@ impl Material {
         self.emission.max_element() > 0.0
     }
 
-    /// Base colour, emission and opacity at a point with texture coordinates `uv` and vertex colour `colour`.
+    /// Optical properties at a point with texture coordinates `uv` and vertex colour `colour`.
+    ///
+    /// Diffuse reflectance rho = base colour x (1 - metallic), clamped to [`MAX_REFLECTANCE`]; base colour = factor x texture x
+    /// vertex colour, linear.
     #[must_use]
     pub fn at(&self, textures: &[Texture], uv: [Vec2; 2], colour: Vec4) -> SurfacePoint {
         let fetch = |slot: &TextureSlot| textures[slot.texture.index()].sample_srgb(slot.coordinate(uv));

@@ -1,8 +1,8 @@
-//! Floor 1: the scene as the rest of the program sees it: world-space triangles, materials, lights, cameras.
+//! Floor 1: the scene: triangles in world space, materials, lights, cameras.
 //!
-//! A [`Scene`] is validated when it is made ([`gltf::load`]): all numbers are finite and all indices in range, so no
-//! later stage checks again. Deliberately absent: work with the node tree (transforms are applied on loading; it is kept for
-//! bakes) and anything of the GPU.
+//! A [`Scene`] comes from a file ([`gltf::load`]), from [`builtin`], or from code ([`SceneBuilder`]). The loader validates it:
+//! all numbers are finite and all indices in range, so no later stage checks again. The node tree is applied on loading and
+//! kept only so that a bake can write it. Nothing here uses the GPU.
 
 pub mod builtin;
 pub mod camera;

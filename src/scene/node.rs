@@ -1,4 +1,4 @@
-//! The tree of nodes that a file has: applied on loading, and kept for programs that move nodes.
+//! The node tree of a file. Its transforms are applied on loading; a bake writes the tree for programs that move nodes.
 
 use std::ops::Range;
 
@@ -9,30 +9,30 @@ use glam::{DAffine3, DMat4, DQuat, DVec3};
 pub struct NamedNode {
     /// Its name; may be empty.
     pub name: String,
-    /// The node above it, which comes before it in [`super::Scene::nodes`].
+    /// Its parent, an earlier index into [`Scene::nodes`](super::Scene::nodes); `None` for a root.
     pub parent: Option<usize>,
-    /// Where it stands in the node above it.
+    /// Transform to its parent.
     pub transform: Transform,
-    /// What it shows, as a range of [`super::Scene::instances`].
+    /// Its instances, as a range of [`Scene::instances`](super::Scene::instances).
     pub instances: Range<usize>,
-    /// The light that it carries, by its number.
+    /// Index of its light; `None` if it has none.
     pub light: Option<usize>,
-    /// The camera that it carries, by its number.
+    /// Index of its camera; `None` if it has none.
     pub camera: Option<usize>,
 }
 
-/// Place, turn and size of a node in the one above it, told as the file tells it.
+/// Transform of a node to its parent, in the form of the file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Transform {
-    /// Column by column.
+    /// A 4 x 4 matrix, column by column.
     Matrix([f32; 16]),
-    /// What animations move.
+    /// Translation x rotation x scale, which animations can change.
     Parts {
         /// Metres.
         translation: [f32; 3],
         /// Unit quaternion x, y, z, w.
         rotation: [f32; 4],
-        /// Along the node's axes.
+        /// Scale along the node's axes.
         scale: [f32; 3],
     },
 }
@@ -44,13 +44,13 @@ impl Default for Transform {
 }
 
 impl Transform {
-    /// The nearest that a file can tell.
+    /// The matrix of a transform, rounded to single precision as in a file.
     #[must_use]
     pub fn from_affine(parent_from_node: DAffine3) -> Self {
         Self::Matrix(DMat4::from(parent_from_node).to_cols_array().map(|x| x as f32))
     }
 
-    /// From the node's space to that of the node above it.
+    /// Transform from node space to the space of the parent.
     #[must_use]
     pub fn parent_from_node(&self) -> DAffine3 {
         match *self {

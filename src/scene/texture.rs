@@ -1,23 +1,23 @@
-//! Textures as materials name them, and how they are sampled on the CPU.
+//! Textures of materials, and bilinear sampling on the CPU.
 
 use glam::{Affine2, Vec2, Vec4};
 
 use crate::base::colour::srgb_byte_table;
 use crate::base::ids::TextureId;
 
-/// A texture as a material uses it.
+/// Reference of a material to a texture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureSlot {
-    /// Which texture.
+    /// The texture.
     pub texture: TextureId,
-    /// Which texture coordinate set, 0 or 1.
+    /// Texture coordinate set, 0 or 1.
     pub uv_set: usize,
-    /// KHR_texture_transform, from mesh coordinates to texture coordinates.
+    /// KHR_texture_transform: transform from the vertices' coordinates to those of the texture.
     pub transform: Affine2,
 }
 
 impl TextureSlot {
-    /// Texture coordinate of a vertex' coordinate sets.
+    /// Transformed texture coordinate, given both coordinate sets.
     #[must_use]
     pub fn coordinate(&self, uv: [Vec2; 2]) -> Vec2 {
         self.transform.transform_point2(uv[self.uv_set])
@@ -29,11 +29,11 @@ impl TextureSlot {
 pub struct Texture {
     /// Pixels.
     pub image: std::sync::Arc<Image>,
-    /// How coordinates outside 0..1 and between pixels are read.
+    /// Wrapping outside 0..1 and interpolation between pixels.
     pub sampler: Sampler,
 }
 
-/// Decoded pixels, and the bytes they came from so that a bake can pass them on unchanged.
+/// Decoded pixels with the encoded bytes, which a bake copies unchanged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
     /// Name in the file.
@@ -44,7 +44,7 @@ pub struct Image {
     pub height: u32,
     /// RGBA bytes as stored (sRGB for colours), row by row from the top.
     pub rgba: Vec<u8>,
-    /// The encoded file; empty where it could not be read and a grey pixel stands in.
+    /// The encoded file; empty if it cannot be read and a grey pixel replaces it.
     pub encoded: Vec<u8>,
     /// `image/png`, `image/jpeg`, `image/webp` or `image/ktx2`.
     pub mime_type: String,
@@ -53,22 +53,22 @@ pub struct Image {
 /// glTF sampler.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Sampler {
-    /// Across.
+    /// Wrapping along u.
     pub wrap_u: Wrap,
-    /// Down.
+    /// Wrapping along v.
     pub wrap_v: Wrap,
     /// Nearest instead of linear magnification.
     pub nearest: bool,
 }
 
-/// What happens outside 0..1.
+/// Wrapping of texture coordinates outside 0..1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Wrap {
-    /// Tiles.
+    /// The image repeats.
     Repeat,
-    /// Tiles, every other one mirrored.
+    /// The image repeats, every other copy mirrored.
     Mirror,
-    /// Edge pixels go on.
+    /// The pixels at the edge continue.
     Clamp,
 }
 
@@ -87,7 +87,7 @@ impl Wrap {
 }
 
 impl Texture {
-    /// Bilinear sample with linear colour (sRGB decoded) and alpha; glTF's origin is the top left corner.
+    /// Bilinear sample of an sRGB colour texture: linear colour and alpha. The origin is the top left corner, as in glTF.
     #[must_use]
     pub fn sample_srgb(&self, uv: Vec2) -> Vec4 {
         static LINEAR: std::sync::LazyLock<[f32; 256]> = std::sync::LazyLock::new(srgb_byte_table);
@@ -96,7 +96,7 @@ impl Texture {
         })
     }
 
-    /// Bilinear sample of linear data.
+    /// Bilinear sample of a texture with linear data.
     #[must_use]
     pub fn sample_linear(&self, uv: Vec2) -> Vec4 {
         self.sample(uv, |rgba| Vec4::from(rgba.map(f32::from)) / 255.0)

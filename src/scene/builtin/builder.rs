@@ -1,4 +1,4 @@
-//! Collects materials, shapes, lights and cameras into a scene.
+//! Builder of the built-in scenes: materials, textures, shapes, lights and cameras.
 
 use std::collections::HashMap;
 
@@ -10,13 +10,13 @@ use crate::scene::{
     Camera, Image, Light, LightKind, Material, Sampler, Scene, SceneBuilder, Texture, TextureSlot, Vertex, Wrap,
 };
 
-/// A scene in the making.
+/// A scene under construction.
 pub(super) struct Builder {
     scene: SceneBuilder,
     textures: Vec<Texture>,
 }
 
-/// A matt surface of the given linear reflectance.
+/// A diffuse material of the given linear reflectance.
 pub(super) fn paint(name: &str, reflectance: [f32; 3]) -> Material {
     Material { name: name.to_owned(), ..Material::diffuse(reflectance.into()) }
 }
@@ -34,13 +34,13 @@ impl Builder {
         self.scene.material(material)
     }
 
-    /// A matt surface that also emits `radiance`, nit per channel, in a light group.
+    /// Adds a diffuse material that emits `radiance`, nit per channel, in a light group.
     pub(super) fn glowing(&mut self, paint: Material, radiance: Vec3, group: &str) -> MaterialId {
         let group = Some(self.scene.group(group));
         self.material(Material { emission: radiance, group, ..paint })
     }
 
-    /// A texture that repeats.
+    /// Adds a repeating texture.
     pub(super) fn texture(&mut self, image: Image) -> TextureSlot {
         let sampler = Sampler { wrap_u: Wrap::Repeat, wrap_v: Wrap::Repeat, nearest: false };
         self.textures.push(Texture { image: image.into(), sampler });
@@ -48,12 +48,12 @@ impl Builder {
         TextureSlot { texture, uv_set: 0, transform: glam::Affine2::IDENTITY }
     }
 
-    /// A matt surface with a texture.
+    /// Adds a diffuse material with a texture.
     pub(super) fn textured(&mut self, paint: Material, texture: TextureSlot) -> MaterialId {
         self.material(Material { base_colour_texture: Some(texture), ..paint })
     }
 
-    /// Makes a shape an object of the scene.
+    /// Adds a shape as an instance.
     pub(super) fn place(&mut self, name: &str, material: MaterialId, shape: Shape) {
         let shape = weld(&shape);
         self.scene.mesh(name, material, shape.vertices, shape.triangles);
@@ -71,7 +71,7 @@ impl Builder {
     }
 }
 
-/// Makes vertices that agree in everything one.
+/// Merges vertices that are equal in position, normal and texture coordinates.
 fn weld(shape: &Shape) -> Shape {
     let mut welded = Shape::default();
     let mut known = HashMap::new();
@@ -102,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_welded_box_keeps_four_vertices_a_side() {
+    fn a_welded_box_keeps_four_vertices_per_side() {
         let halves = cuboid(Vec3::ZERO, Vec3::ONE, &[]).join(cuboid(Vec3::ZERO, Vec3::ONE, &[]));
         assert_eq!(weld(&halves).vertices.len(), 24);
         assert_eq!(weld(&halves).triangles.len(), 24);

@@ -1,7 +1,8 @@
-//! Architecture as rooms carved out of a solid: walls face inward, have no leaks and share every edge.
+//! Architecture as rooms carved out of a solid: walls face inward, are closed, and share every edge.
 //!
-//! All boxes together cut space into the cells of one rectilinear grid; a cell is solid until a room takes it, and solid
-//! again where a block stands. A face lies wherever air meets solid, so neighbouring faces always share whole edges.
+//! The planes of all boxes divide space into the cells of a rectilinear grid. A cell is solid by default, air inside a room,
+//! and solid again inside a block. There is a face between each pair of an air cell and a solid cell, so neighbouring faces
+//! always share whole edges.
 
 use std::collections::BTreeMap;
 
@@ -10,13 +11,13 @@ use glam::Vec3;
 use super::shape::{Shape, Side, polygon, side_corners};
 use crate::base::ids::MaterialId;
 
-/// Coordinates closer than this are one line of the grid, metres.
+/// Distance within which two coordinates are the same grid line, metres.
 const SAME: f32 = 1e-4;
 
-/// Finish of the six sides, in the order of [`Side::ALL`].
+/// Materials of the six sides, in the order of [`Side::ALL`].
 pub(super) type Finish = [MaterialId; 6];
 
-/// Rooms and blocks so far; a later box takes cells from an earlier one.
+/// Rooms and blocks; where boxes overlap, the later one determines the cell.
 #[derive(Default)]
 pub(super) struct Carving {
     boxes: Vec<Region>,
@@ -29,7 +30,7 @@ struct Region {
     name: String,
     extent: Aabb,
     is_air: bool,
-    /// Of the walls round air, of the outside of a block.
+    /// Materials of the walls of a room or of the outside of a block.
     finish: Finish,
 }
 
@@ -37,19 +38,19 @@ struct Region {
 type Lines = [Vec<f32>; 3];
 
 impl Carving {
-    /// Air, with the finish of its six walls.
+    /// Adds a room with the materials of its six walls.
     pub(super) fn room(&mut self, name: &str, extent: ([f32; 3], [f32; 3]), finish: Finish) {
         self.add(name, extent, true, finish);
     }
 
-    /// A solid block; `top` is the finish of its upper side.
+    /// Adds a solid block; `top` is the material of its upper side.
     pub(super) fn block(&mut self, name: &str, extent: ([f32; 3], [f32; 3]), sides: MaterialId, top: MaterialId) {
         let mut finish = [sides; 6];
         finish[Side::Above as usize] = top;
         self.add(name, extent, false, finish);
     }
 
-    /// Leaves out the faces that lie in the box, for something else to close the hole.
+    /// Adds a hole: faces inside the box are left out.
     pub(super) fn window(&mut self, extent: ([f32; 3], [f32; 3])) {
         self.windows.push((extent.0.into(), extent.1.into()));
     }
@@ -58,7 +59,7 @@ impl Carving {
         self.boxes.push(Region { name: name.to_owned(), extent: (low.into(), high.into()), is_air, finish });
     }
 
-    /// The finished surfaces, one for each side of each room and each block: name, material, shape.
+    /// The resulting surfaces, one for each side of each room and block: name, material, shape.
     pub(super) fn surfaces(&self) -> Vec<(String, MaterialId, Shape)> {
         let mut shapes: BTreeMap<(usize, usize), Vec<Shape>> = BTreeMap::new();
         for (region, side, face) in self.faces() {
@@ -72,7 +73,7 @@ impl Carving {
         shapes.into_iter().map(surface).collect()
     }
 
-    /// Every face between air and solid, with the region that owns it and the side of that region.
+    /// All faces between air and solid, each with its region and the side of that region.
     fn faces(&self) -> Vec<(usize, Side, Shape)> {
         let lines = self.lines();
         let owner = |cell: [usize; 3]| self.owner(&lines, cell);
@@ -88,7 +89,7 @@ impl Carving {
                 if beyond.is_some_and(|beyond| self.boxes[beyond].is_air) || self.is_window(corners) {
                     continue;
                 }
-                // A block shows its own side, which is the opposite of the side of the air.
+                // A face of a block belongs to the side of the block, which is opposite to the side of the air cell.
                 let (region, own_side) = beyond.map_or((air, side), |block| (block, Side::ALL[side as usize ^ 1]));
                 faces.push((region, own_side, polygon(&corners).inside_out()));
             }
@@ -96,7 +97,7 @@ impl Carving {
         faces
     }
 
-    /// The last region that holds the cell; none where the solid was never touched.
+    /// The last region that contains the cell; `None` outside all regions, where space is solid.
     fn owner(&self, lines: &Lines, cell: [usize; 3]) -> Option<usize> {
         let (low, high) = bounds(lines, cell);
         let middle = (low + high) / 2.0;
@@ -176,7 +177,7 @@ mod tests {
         builder.finish()
     }
 
-    /// Directed edges that have no partner in the other direction: none in a closed surface without T-vertices.
+    /// Number of edges without a partner in the opposite direction: zero for a closed surface without T-junctions.
     fn open_edges(scene: &crate::scene::Scene) -> usize {
         let mut edges: HashMap<[[u32; 3]; 2], i32> = HashMap::new();
         for t in 0..scene.triangles.len() {
@@ -198,7 +199,7 @@ mod tests {
         carving.block("block", ([0.4, 0.0, 0.3], [0.6, 0.1, 0.9]), MaterialId(0), MaterialId(0));
         let scene = built(&carving);
         assert_eq!(open_edges(&scene), 0);
-        // The niche adds its four sides, the block its four sides; their ends replace what they cover.
+        // The niche adds four sides, the block four sides; their ends replace the areas that they cover.
         let sides = 4.0 * 0.5 * 0.5 + 2.0 * 0.1 * (0.2 + 0.6);
         assert!((scene.area() - (6.0 + sides)).abs() < 1e-5, "{}", scene.area());
     }

@@ -1,7 +1,7 @@
-//! The Cornell box, from its measured coordinates.
+//! The Cornell box, with its measured coordinates.
 //!
-//! Source: Cornell University Program of Computer Graphics, "The Cornell Box: Data" (1998); the reflectances and the
-//! light are the linear Rec. 709 values in common use for its spectra.
+//! Source: Cornell University Program of Computer Graphics, "The Cornell Box: Data" (1998). The reflectances and the light
+//! are the linear Rec. 709 values that are commonly used for its spectra.
 
 use glam::Vec3;
 
@@ -34,12 +34,12 @@ pub fn cornell() -> Scene {
     builder.place("light", light, polygon(&metres(LIGHT)));
     builder.place("back wall", white, polygon(&metres(BACK_WALL)));
     builder.place("right wall", green, polygon(&metres(RIGHT_WALL)));
-    // The measured corners of the left wall do not lie in one plane: two triangles, each with its own normal.
+    // The measured corners of the left wall are not coplanar, so it is two triangles with a normal each.
     let [a, b, c, d] = metres(LEFT_WALL);
     builder.place("left wall", red, polygon(&[a, b, c]).join(polygon(&[a, c, d])));
     builder.place("short block", white, block(metres(SHORT_BLOCK_TOP)));
     builder.place("tall block", white, block(metres(TALL_BLOCK_TOP)));
-    // A 35 mm lens before a 25 mm square film.
+    // Focal length 35 mm, film 25 mm square.
     builder.camera("camera", [2.78, 2.73, -8.0], [2.78, 2.73, 0.0], 2.0 * (12.5f32 / 35.0).atan().to_degrees());
     builder.finish()
 }
@@ -58,7 +58,7 @@ fn frame(outer: [Vec3; 4], inner: [Vec3; 4]) -> Shape {
         .collect()
 }
 
-/// A block on the floor under its top, without a bottom.
+/// A block that stands on the floor, given its top, without a bottom face.
 fn block(top: [Vec3; 4]) -> Shape {
     let on_floor = |corner: Vec3| corner.with_y(0.0);
     let side = |i: usize| {
@@ -75,7 +75,7 @@ mod tests {
     use crate::scene::{area_of, normal_of};
 
     #[test]
-    fn the_room_faces_its_middle_and_the_blocks_face_outward() {
+    fn walls_face_inward_and_blocks_outward() {
         let scene = cornell();
         let middle = Vec3::new(2.78, 2.73, 2.8);
         for instance in &scene.instances {

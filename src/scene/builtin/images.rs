@@ -1,6 +1,6 @@
-//! Procedural pictures: a plank floor and four paintings, encoded as PNG.
+//! Procedural textures: a plank floor and four paintings, encoded as PNG.
 //!
-//! Only exact arithmetic and hashes, so that every machine makes the same bytes.
+//! They use only exactly rounded arithmetic and hashes, so that every machine generates the same bytes.
 
 use std::io::Cursor;
 
@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 use crate::base::sampling::{hash, unit_float};
 use crate::scene::Image;
 
-/// An image whose pixel at (u, v), both in 0..1 from the top left, has the sRGB colour that `paint` says.
+/// An image whose pixel at (u, v), both in 0..1 from the top left, has the sRGB colour `paint((u, v))`.
 fn image(name: &str, [width, height]: [u32; 2], paint: impl Fn(Vec2) -> Vec3) -> Image {
     let pixels = image::RgbImage::from_fn(width, height, |x, y| {
         let at = (Vec2::new(x as f32, y as f32) + 0.5) / Vec2::new(width as f32, height as f32);
@@ -26,12 +26,12 @@ fn rgb(hex: u32) -> Vec3 {
     Vec3::from([hex >> 16, hex >> 8 & 0xff, hex & 0xff].map(|channel| channel as f32 / 255.0))
 }
 
-/// Uniform number in 0..1 that belongs to a pair of whole numbers.
+/// Uniform pseudo-random number in 0..1, a function of a pair of integers.
 fn random(x: i32, y: i32) -> f32 {
     unit_float(hash((x as u32).wrapping_mul(0x9e37_79b9) ^ hash(y as u32)))
 }
 
-/// Smooth noise in 0..1 that repeats after `period` cells.
+/// Value noise in 0..1 that repeats after `period` cells.
 fn noise(at: Vec2, period: [i32; 2]) -> f32 {
     let low = at.floor();
     let share = at - low;
@@ -43,7 +43,7 @@ fn noise(at: Vec2, period: [i32; 2]) -> f32 {
     top + (bottom - top) * share.y
 }
 
-/// Eight planks side by side, their ends staggered, with grain along V; it tiles.
+/// Eight planks side by side with staggered ends and grain along V; the image tiles.
 pub(super) fn planks() -> Image {
     const PLANKS: f32 = 8.0;
     image("planks", [256, 256], |at| {
@@ -93,7 +93,7 @@ pub(super) fn rings() -> Image {
 /// Two soft fields of colour one above the other.
 pub(super) fn fields() -> Image {
     image("fields", [64, 128], |at| {
-        // How far inside a rectangle with blurred borders: 0 outside, 1 well inside.
+        // Coverage by a rectangle with blurred borders: 0 outside, 1 well inside.
         let inside = |low: Vec2, high: Vec2| {
             let depth = (at - low).min(high - at).min_element() + 0.04 * (noise(at * 24.0, [24, 24]) - 0.5);
             let share = (depth / 0.06).clamp(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! Round and twisted shapes, all round the +Y axis.
+//! Surfaces of revolution and twisted prisms about the +Y axis.
 
 use std::f64::consts::TAU;
 
@@ -7,18 +7,19 @@ use glam::{Vec2, Vec3};
 use super::shape::{Shape, polygon};
 use crate::scene::Vertex;
 
-/// Neighbouring bands of a profile meet smoothly where their normals are closer than this (cosine of 50 degrees).
+/// Cosine of the crease angle, 50 degrees: neighbouring bands whose normals differ by less are shaded smoothly.
 const CREASE: f32 = 0.643;
 
-/// The point of the unit circle at `share` of a turn. Computed in double precision, so that every machine rounds to the
-/// same single.
+/// The point of the unit circle at `share` of a turn. It is computed in double precision, so that every machine rounds it to
+/// the same single.
 fn on_circle(share: f64) -> Vec2 {
     Vec2::new((share * TAU).cos() as f32, (share * TAU).sin() as f32)
 }
 
-/// A profile of (radius, height) points turned round +Y, in flat `sides` that shade as one round surface.
+/// Surface of revolution: a profile of (radius, height) points rotated about +Y, with `sides` flat sides that are shaded
+/// smoothly.
 ///
-/// The front faces lie to the right of the profile's direction: upward, the outside.
+/// The front faces are on the right of the profile's direction: outside for a profile that goes upward.
 pub(super) fn lathe(profile: &[Vec2], sides: u32) -> Shape {
     let bands: Vec<[Vec2; 2]> = profile.windows(2).map(|ends| [ends[0], ends[1]]).collect();
     let normals: Vec<Vec2> = bands.iter().map(|[low, high]| -(*high - *low).perp().normalize()).collect();
@@ -31,12 +32,12 @@ pub(super) fn lathe(profile: &[Vec2], sides: u32) -> Shape {
         .collect()
 }
 
-/// One band of a lathe between two (radius, height) points with their (radial, upward) normals.
+/// One band of a surface of revolution between two (radius, height) points with their (radial, upward) normals.
 fn ring([low, high]: [Vec2; 2], normals: [Vec2; 2], sides: u32) -> Shape {
     let corner = |side: u32, at: Vec2, normal: Vec2| {
         let around = on_circle(f64::from(side % sides) / f64::from(sides));
         let turned = |v: Vec2| Vec3::new(v.x * around.x, v.y, v.x * -around.y);
-        // On the axis all sides meet in one point with one normal.
+        // On the axis, all sides share one point with one normal.
         let normal = if at.x == 0.0 { Vec3::Y * normal.y.signum() } else { turned(normal) };
         Vertex::new(turned(at), normal.normalize())
     };
@@ -50,7 +51,7 @@ fn ring([low, high]: [Vec2; 2], normals: [Vec2; 2], sides: u32) -> Shape {
             corner(next, high, normals[1]),
             corner(this, high, normals[1]),
         ]);
-        // A triangle where the band begins or ends on the axis.
+        // A band that begins or ends on the axis has one triangle per side.
         if low.x > 0.0 {
             shape.triangles.push([first, first + 1, first + 2]);
         }
@@ -61,10 +62,10 @@ fn ring([low, high]: [Vec2; 2], normals: [Vec2; 2], sides: u32) -> Shape {
     shape
 }
 
-/// A ball round the origin.
+/// A sphere about the origin.
 pub(super) fn sphere(radius: f32, sides: u32, bands: u32) -> Shape {
     let point = |band: u32| match on_circle(f64::from(band) / f64::from(2 * bands)) {
-        // Exactly on the axis at both ends.
+        // The poles lie exactly on the axis.
         _ if band == 0 => Vec2::new(0.0, -radius),
         _ if band == bands => Vec2::new(0.0, radius),
         at => Vec2::new(at.y, -at.x) * radius,
@@ -72,7 +73,7 @@ pub(super) fn sphere(radius: f32, sides: u32, bands: u32) -> Shape {
     lathe(&(0..=bands).map(point).collect::<Vec<_>>(), sides)
 }
 
-/// A ring of tube round the origin.
+/// A torus about the origin.
 pub(super) fn torus(radius: f32, tube_radius: f32, sides: u32, tube_sides: u32) -> Shape {
     let point = |side: u32| {
         let at = on_circle(f64::from(side % tube_sides) / f64::from(tube_sides));
@@ -86,8 +87,8 @@ pub(super) fn torus(radius: f32, tube_radius: f32, sides: u32, tube_sides: u32) 
     torus
 }
 
-/// A regular prism without a bottom that turns by `twist` of a turn from its foot at the origin to its top, in flat
-/// faces.
+/// A regular prism without a bottom, twisted by the share `twist` of a turn between its foot at the origin and its top, with
+/// flat faces.
 pub(super) fn twisted_prism(radius: f32, height: f32, twist: f64, sides: u32, layers: u32) -> Shape {
     let corner = |side: u32, layer: u32| {
         let up = f64::from(layer) / f64::from(layers);
@@ -108,7 +109,7 @@ mod tests {
     use super::*;
     use crate::scene::edge_cross;
 
-    /// Volume inside, by the divergence theorem; negative if the faces look inward.
+    /// Enclosed volume by the divergence theorem; negative if the faces are directed inward.
     fn volume(shape: &Shape) -> f32 {
         let tetrahedron = |corners: &[u32; 3]| {
             let corners = corners.map(|v| shape.vertices[v as usize].position);
@@ -141,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sphere_is_smooth_and_a_cylinder_creased() {
+    fn a_sphere_is_smooth_and_a_cylinder_has_creases() {
         for vertex in &sphere(2.0, 16, 8).vertices {
             assert!((vertex.normal - vertex.position / 2.0).length() < 0.03);
         }

@@ -1,4 +1,4 @@
-//! Small pieces of mesh: plain data that is made, moved and joined before it becomes part of a scene.
+//! Pieces of mesh that are transformed and joined before they become instances of a scene.
 
 use glam::{Quat, Vec2, Vec3};
 
@@ -32,15 +32,15 @@ impl Side {
     /// Every side.
     pub(super) const ALL: [Side; 6] = [Side::West, Side::East, Side::Below, Side::Above, Side::North, Side::South];
 
-    /// Axis of its normal and whether the normal points along it.
+    /// Axis of its normal, and whether the normal points in the positive direction.
     pub(super) fn axis(self) -> (usize, bool) {
         (self as usize / 2, self as usize % 2 == 1)
     }
 }
 
-/// A flat convex polygon, its corners counter-clockwise seen from the front.
+/// A planar convex polygon with corners counter-clockwise as seen from the front.
 pub(super) fn polygon(corners: &[Vec3]) -> Shape {
-    // Newell's normal: the same for every triangle of the polygon.
+    // Newell's formula gives all triangles of the polygon the same normal.
     let around = (0..corners.len()).map(|i| corners[i].cross(corners[(i + 1) % corners.len()]));
     let normal = around.sum::<Vec3>().normalize();
     let vertices = corners.iter().map(|&corner| Vertex::new(corner, normal)).collect();
@@ -48,7 +48,7 @@ pub(super) fn polygon(corners: &[Vec3]) -> Shape {
     Shape { vertices, triangles }
 }
 
-/// Corners of one side of a box, counter-clockwise seen from outside.
+/// Corners of one side of a box, counter-clockwise as seen from outside.
 pub(super) fn side_corners(low: Vec3, high: Vec3, side: Side) -> [Vec3; 4] {
     let (axis, is_positive) = side.axis();
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -75,7 +75,7 @@ impl FromIterator<Shape> for Shape {
 }
 
 impl Shape {
-    /// Both shapes in one.
+    /// Union of the vertices and triangles of two shapes.
     pub(super) fn join(mut self, other: Shape) -> Self {
         let first = self.vertices.len() as u32;
         self.vertices.extend(other.vertices);
@@ -89,7 +89,7 @@ impl Shape {
         self
     }
 
-    /// Turned about the origin.
+    /// Rotated about the origin.
     pub(super) fn turned(mut self, rotation: Quat) -> Self {
         for vertex in &mut self.vertices {
             vertex.position = rotation * vertex.position;
@@ -98,7 +98,7 @@ impl Shape {
         self
     }
 
-    /// Turned counter-clockwise about +Y, seen from above, in steps of 90 degrees; exact.
+    /// Rotated counter-clockwise about +Y, as seen from above, by a multiple of 90 degrees, without rounding.
     pub(super) fn quarter_turned(mut self, times: usize) -> Self {
         for _ in 0..times {
             for vertex in &mut self.vertices {
@@ -110,14 +110,14 @@ impl Shape {
         self
     }
 
-    /// Seen from the other side.
+    /// The shape with its front and back faces exchanged.
     pub(super) fn inside_out(mut self) -> Self {
         self.vertices.iter_mut().for_each(|vertex| vertex.normal = -vertex.normal);
         self.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
         self
     }
 
-    /// With texture coordinates by position.
+    /// The shape with texture coordinates as a function of position.
     pub(super) fn with_uv(mut self, uv: impl Fn(Vec3) -> Vec2) -> Self {
         self.vertices.iter_mut().for_each(|vertex| vertex.uv[0] = uv(vertex.position));
         self

@@ -1,4 +1,4 @@
-//! Luminous intensity by direction: the table of a photometric file, looked up by direction and integrated to a flux.
+//! Luminous intensity by direction, interpolated in the table of a photometric file, and its flux.
 
 use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
@@ -8,29 +8,29 @@ use glam::{Quat, Vec3};
 /// Luminous intensity by direction, candela.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Photometry {
-    /// Angles from the axis `[v]`, degrees, growing.
+    /// Angles from the axis `[v]`, degrees, ascending.
     pub(super) vertical: Vec<f32>,
-    /// Angles round the axis `[h]`, degrees, growing.
+    /// Angles round the axis `[h]`, degrees, ascending.
     pub(super) horizontal: Vec<f32>,
-    /// `[h][v]`.
+    /// Intensities `[h][v]`.
     pub(super) candela: Vec<f32>,
-    /// The largest of them.
+    /// The largest intensity.
     pub(super) peak: f32,
-    /// The file, so that a bake can pass it on unchanged.
+    /// Bytes of the file, which a bake copies unchanged.
     pub(super) file: Vec<u8>,
 }
 
-/// A luminaire's distribution as a light holds it.
+/// Intensity distribution of a light: a table and its orientation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
-    /// The table.
+    /// The table, which several lights may share.
     pub photometry: Arc<Photometry>,
-    /// How the luminaire is turned; its axis is -Z.
+    /// Rotation from the luminaire's space, whose axis is -Z, to world space.
     pub world_from_light: Quat,
 }
 
 impl Profile {
-    /// Intensity towards a unit vector away from the light, as a share of the largest.
+    /// Intensity along the unit vector `direction`, away from the light, relative to the largest intensity.
     #[must_use]
     pub fn share(&self, direction: Vec3) -> f32 {
         let local = self.world_from_light.inverse() * direction;
@@ -39,14 +39,15 @@ impl Profile {
 }
 
 impl Photometry {
-    /// Candela towards a unit vector in the luminaire's own space: vertical angles begin at -Z, horizontal ones at +X and
-    /// grow towards +Y (EXT_lights_ies). None beyond the last vertical angle.
+    /// Luminous intensity along a unit vector in the luminaire's space, candela, interpolated linearly between the table's
+    /// angles. Vertical angles start at -Z, horizontal ones at +X and increase towards +Y (EXT_lights_ies). The intensity
+    /// outside the vertical angles of the table is zero.
     #[must_use]
     pub fn intensity(&self, direction: Vec3) -> f32 {
         let vertical = (-direction.z).clamp(-1.0, 1.0).acos().to_degrees();
         let round = direction.y.atan2(direction.x).to_degrees();
-        let Some((low, share)) = place(&self.vertical, vertical) else { return 0.0 };
-        let (plane, turn) = place(&self.horizontal, self.folded(round)).unwrap_or((0, 0.0));
+        let Some((low, share)) = bracket(&self.vertical, vertical) else { return 0.0 };
+        let (plane, turn) = bracket(&self.horizontal, self.folded(round)).unwrap_or((0, 0.0));
         let next = (plane + 1).min(self.horizontal.len() - 1);
         let along = |plane: usize| {
             let row = &self.candela[plane * self.vertical.len()..][..self.vertical.len()];
@@ -55,14 +56,14 @@ impl Photometry {
         along(plane) + turn * (along(next) - along(plane))
     }
 
-    /// A horizontal angle, brought into the part of the circle that the file tells; the rest mirrors it.
+    /// Maps a horizontal angle into the part of the circle that the table covers; the other parts mirror it.
     fn folded(&self, degrees: f32) -> f32 {
         let degrees = degrees.rem_euclid(360.0);
         let half = if degrees > 180.0 { 360.0 - degrees } else { degrees };
         let (first, last) = (self.horizontal[0], self.horizontal[self.horizontal.len() - 1]);
         match (first, last) {
             _ if first == last => first,
-            // The planes from 90 to 270 degrees tell of the side of -X.
+            // The planes from 90 to 270 degrees cover the side of -X.
             (90.0, 270.0) if !(90.0..=270.0).contains(&degrees) => (180.0 - degrees).rem_euclid(360.0),
             (0.0, 90.0) if half > 90.0 => 180.0 - half,
             (0.0, 90.0 | 180.0) => half,
@@ -76,13 +77,13 @@ impl Photometry {
         self.peak
     }
 
-    /// The file that it was read from.
+    /// Bytes of the photometric file.
     #[must_use]
     pub fn file(&self) -> &[u8] {
         &self.file
     }
 
-    /// Luminous flux, lumen: the integral over the sphere by the midpoint rule.
+    /// Luminous flux, lumen: the integral of the intensity over the sphere by the midpoint rule, in steps of 2 and 4 degrees.
     #[must_use]
     pub fn flux(&self) -> f32 {
         const STEPS: usize = 90;
@@ -98,8 +99,9 @@ impl Photometry {
     }
 }
 
-/// Between which of the growing `angles` one lies, and how far towards the next; none outside.
-fn place(angles: &[f32], angle: f32) -> Option<(usize, f32)> {
+/// Index of the last of the ascending `angles` at or below `angle`, and the position between it and the next one, 0..1;
+/// `None` outside their range.
+fn bracket(angles: &[f32], angle: f32) -> Option<(usize, f32)> {
     /// Rounding at the ends of the table, degrees.
     const SLACK: f32 = 1e-3;
     if angle < angles[0] - SLACK || angle > angles[angles.len() - 1] + SLACK {
@@ -132,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn a_diffuse_luminaire_sends_pi_times_its_peak() {
+    fn the_flux_of_a_lambertian_luminaire_is_pi_times_its_peak() {
         let angles: Vec<String> = (0..=90).map(|degree| degree.to_string()).collect();
         let cosines: Vec<String> =
             (0..=90).map(|degree| format!("{}", 100.0 * f64::from(degree).to_radians().cos())).collect();
@@ -143,7 +145,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_told_of_a_part_of_the_circle_is_mirrored_to_the_rest() {
+    fn a_table_of_a_part_of_the_circle_is_mirrored_to_the_rest() {
         // Candela at 90 degrees from the axis are the horizontal angle.
         let quarter = file("0 90", "0 90", "0 0 0 90");
         let half = file("0 90", "0 90 180", "0 0 0 90 0 180");
@@ -161,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn a_turned_light_takes_its_table_along() {
+    fn the_distribution_rotates_with_the_light() {
         let photometry = Arc::new(file("0 90 180", "0", "10 5 0"));
         let upwards = Quat::from_rotation_arc(Vec3::NEG_Z, Vec3::Y);
         let profile = Profile { photometry, world_from_light: upwards };

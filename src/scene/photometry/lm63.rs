@@ -1,17 +1,17 @@
-//! Reads the text of LM-63 files, of 1986 to 2019; type C photometry.
+//! Parser of LM-63 files of the editions 1986 to 2019; type C photometry.
 
 use super::distribution::Photometry;
 
 /// Most intensities of a table.
 const MAX_TABLE: usize = 1 << 20;
 
-/// Numbers between the tilt and the table of angles.
+/// Numbers between the TILT data and the angles.
 const HEADER: usize = 13;
 
-/// The table of a file.
+/// Reads the table of a file.
 ///
 /// # Errors
-/// One sentence that says what is wrong with the file.
+/// Returns an error if the file is not LM-63, not type C, or has no positive intensity; it is one sentence.
 pub fn parse(bytes: &[u8]) -> Result<Photometry, String> {
     let text = String::from_utf8_lossy(bytes);
     let (_, after) =
@@ -21,10 +21,10 @@ pub fn parse(bytes: &[u8]) -> Result<Photometry, String> {
     let mut next = || -> Result<f32, String> {
         let word = numbers.next().ok_or("it is cut off")?;
         let number = word.parse().ok().filter(|number: &f32| number.is_finite());
-        number.ok_or_else(|| format!("{:?} is no number", word.chars().take(20).collect::<String>()))
+        number.ok_or_else(|| format!("{:?} is not a number", word.chars().take(20).collect::<String>()))
     };
     if tilt.trim() == "INCLUDE" {
-        // The lamp's place, and pairs of angles and factors, which say how a tilted lamp burns.
+        // The lamp's position, and pairs of angles and factors for the flux of a tilted lamp, which are not used.
         next()?;
         let pairs = count(next()?)?;
         (0..2 * pairs).try_for_each(|_| next().map(drop))?;
@@ -49,7 +49,10 @@ pub fn parse(bytes: &[u8]) -> Result<Photometry, String> {
         return Err("it is cut off".to_owned());
     };
     if kind != 1.0 {
-        return Err(format!("its photometry is of type {}, and type C is read", if kind == 2.0 { "B" } else { "A" }));
+        return Err(format!(
+            "its photometry is of type {}; only type C is supported",
+            if kind == 2.0 { "B" } else { "A" }
+        ));
     }
     let (num_vertical, num_horizontal) = (count(num_vertical)?, count(num_horizontal)?);
     if num_vertical == 0 || num_horizontal == 0 || num_vertical.saturating_mul(num_horizontal) > MAX_TABLE {
@@ -59,7 +62,7 @@ pub fn parse(bytes: &[u8]) -> Result<Photometry, String> {
     let (vertical, horizontal) = (list(num_vertical)?, list(num_horizontal)?);
     let is_growing = |angles: &[f32]| angles.windows(2).all(|pair| pair[0] < pair[1]);
     if !is_growing(&vertical) || !is_growing(&horizontal) {
-        return Err("its angles do not grow".to_owned());
+        return Err("its angles are not ascending".to_owned());
     }
     let factor = multiplier * ballast * lamp;
     let candela: Vec<f32> =
@@ -73,7 +76,7 @@ pub fn parse(bytes: &[u8]) -> Result<Photometry, String> {
 
 fn count(number: f32) -> Result<usize, String> {
     let is_whole = number >= 0.0 && number.fract() == 0.0 && number <= MAX_TABLE as f32;
-    if is_whole { Ok(number as usize) } else { Err(format!("{number} is no count")) }
+    if is_whole { Ok(number as usize) } else { Err(format!("{number} is not a count")) }
 }
 
 #[cfg(test)]
@@ -86,7 +89,7 @@ mod tests {
         1 1000 2.0 2 1 1 1 0.1 0.1 0\n0.5 1.0 100\n0, 90\n0\n40, 20\n";
 
     #[test]
-    fn factors_count_and_keywords_and_tilt_are_passed_over() {
+    fn factors_are_applied_and_keywords_and_tilt_are_skipped() {
         let table = parse(WITH_TILT.as_bytes()).expect("LM-63");
         assert_eq!((table.peak(), table.intensity(Vec3::NEG_Z)), (40.0, 40.0));
         assert!((table.intensity(Vec3::X) - 20.0).abs() < 1e-3);
@@ -94,15 +97,15 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_is_said() {
+    fn each_error_has_its_message() {
         let broken = |from: &str, to: &str| parse(WITH_TILT.replacen(from, to, 1).as_bytes()).expect_err("broken");
         assert!(broken("TILT", "tilt").contains("no line TILT="));
         assert!(broken("40, 20", "40").contains("cut off"));
         assert!(broken("2 1 1 1 0.1", "2 1 2 1 0.1").contains("type B"));
-        assert!(broken("0, 90", "90, 0").contains("do not grow"));
+        assert!(broken("0, 90", "90, 0").contains("not ascending"));
         assert!(broken("40, 20", "0, 0").contains("not above 0"));
-        assert!(broken("40, 20", "nan, x").contains("is no number"));
-        assert!(broken("2.0 2 1 1", "2.0 9999999 9999999 1").contains("is no count"));
+        assert!(broken("40, 20", "nan, x").contains("is not a number"));
+        assert!(broken("2.0 2 1 1", "2.0 9999999 9999999 1").contains("is not a count"));
         assert!(broken("2.0 2 1 1", "2.0 0 1 1").contains("0 intensities"));
     }
 }

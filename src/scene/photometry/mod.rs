@@ -1,4 +1,4 @@
-//! What a luminaire sends into each direction: the table of a photometric file.
+//! Photometry of luminaires: luminous intensity by direction, from the table of a photometric file.
 //!
 //! Source: ANSI/IES LM-63-2019 (type C photometry).
 

@@ -1,4 +1,4 @@
-//! What one comes to see: sculptures, pictures, and a bench to sit on.
+//! Exhibits of the gallery: sculptures, pictures, and a bench.
 
 use glam::{Quat, Vec2, Vec3};
 
@@ -9,7 +9,7 @@ use super::super::shape::{Shape, Side, cuboid, polygon};
 use super::finishes::Finishes;
 use super::rooms::{DAIS_HEIGHT, PEDESTAL, PEDESTALS};
 
-/// One sculpture on each pedestal and a vase on the dais.
+/// Adds a sculpture on each pedestal and a vase on the dais.
 pub(super) fn sculptures(builder: &mut Builder, finishes: &Finishes) {
     for (name, [x, z]) in PEDESTALS {
         let top = Vec3::new(x + PEDESTAL / 2.0, DAIS_HEIGHT, z + PEDESTAL / 2.0);
@@ -26,18 +26,18 @@ pub(super) fn sculptures(builder: &mut Builder, finishes: &Finishes) {
     builder.place("vase", finishes.clay, vase.moved(Vec3::new(9.5, DAIS_HEIGHT, 6.4)));
 }
 
-/// A ring that stands upright on a small foot, turned a little out of the wall's direction.
+/// An upright ring on a small foot, rotated slightly out of the direction of the wall.
 fn standing_torus() -> Shape {
     let upright = torus(0.30, 0.085, 24, 10).turned(Quat::from_rotation_x(std::f32::consts::FRAC_PI_2));
     let foot = cuboid(Vec3::new(-0.12, 0.0, -0.08), Vec3::new(0.12, 0.06, 0.08), &[Side::Below]);
     upright.moved(Vec3::Y * 0.42).join(foot).turned(Quat::from_rotation_y(0.6))
 }
 
-/// Framed pictures on the walls.
+/// Adds framed pictures on the walls.
 pub(super) fn pictures(builder: &mut Builder, finishes: &Finishes) {
     let [composition, rings, fields, hills] =
         [images::composition(), images::rings(), images::fields(), images::hills()].map(|image| builder.texture(image));
-    // Name, image, size, middle on the wall, and how often it is turned by 90 degrees from facing south.
+    // Name, image, size, middle on the wall, and number of quarter turns from facing south.
     let hung = [
         ("composition", composition, [1.20, 0.90], [1.5, 1.65, 0.0], 0),
         ("rings", rings, [1.10, 1.10], [3.4, 1.65, 0.0], 0),
@@ -73,15 +73,15 @@ fn frame(size: Vec2) -> Shape {
         .collect()
 }
 
-/// Corners of an upright rectangle round the axis, counter-clockwise seen from the south.
+/// Corners of an upright rectangle about the origin, counter-clockwise as seen from the south.
 fn corners(size: Vec2, z: f32) -> [Vec3; 4] {
     [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, y)| Vec3::new(x * size.x, y * size.y, z))
 }
 
-/// A bench before the pictures of the hall.
+/// Adds a bench before the pictures of the hall.
 pub(super) fn bench(builder: &mut Builder, finishes: &Finishes) {
     let part = |low: [f32; 3], high: [f32; 3], open: &[Side]| cuboid(low.into(), high.into(), open);
-    // The legs end at the seat's underside and have no ends of their own.
+    // The legs end at the underside of the seat and have no end faces.
     let leg = |x: f32| part([x, 0.0, 2.05], [x + 0.06, 0.40, 2.45], &[Side::Above, Side::Below]);
     let seat = part([2.5, 0.40, 2.0], [4.3, 0.45, 2.5], &[]);
     let bench = seat.join(leg(2.7)).join(leg(4.04));

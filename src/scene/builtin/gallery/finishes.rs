@@ -1,4 +1,4 @@
-//! What the gallery is made of.
+//! Materials of the gallery.
 
 use glam::{Vec2, Vec3};
 
@@ -7,11 +7,11 @@ use super::super::images;
 use super::super::shape::Shape;
 use crate::base::ids::MaterialId;
 
-/// Light of an overcast sky in a window, nit.
+/// Radiance of the overcast sky in the windows, nit.
 const SKY: Vec3 = Vec3::new(2400.0, 2900.0, 3500.0);
-/// The luminous ceiling, nit.
+/// Radiance of the luminous ceiling, nit.
 const CEILING_PANEL: Vec3 = Vec3::new(1000.0, 960.0, 880.0);
-/// An opal globe, nit: 40 cd from a disc of 9 cm radius.
+/// Radiance of an opal globe, nit: 40 cd from a disc of 9 cm radius.
 const GLOBE: Vec3 = Vec3::new(1900.0, 1500.0, 1170.0);
 
 /// Side of the square that the plank texture covers, metres.
@@ -59,7 +59,7 @@ impl Finishes {
     }
 }
 
-/// Lays planks along X on whatever faces up.
+/// The shape with texture coordinates of planks along X.
 pub(super) fn with_planks(shape: Shape) -> Shape {
     shape.with_uv(|at| Vec2::new(at.z, at.x) / PLANKS_SIZE)
 }

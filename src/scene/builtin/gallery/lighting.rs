@@ -1,4 +1,4 @@
-//! Daylight, sun, lamps and the spot.
+//! Lights of the gallery: daylight, sun, lamps and the spot.
 
 use glam::{Quat, Vec2, Vec3};
 
@@ -9,24 +9,24 @@ use super::finishes::Finishes;
 use super::rooms::{RED_ROOM_HEIGHT, WINDOW_WALL_Z, WINDOWS_X, WINDOWS_Y};
 use crate::scene::LightKind;
 
-/// Direction in which sunlight travels, before it is made a unit vector: 38 degrees down, a little to the east.
+/// Direction of the sunlight, not normalised: 38 degrees downward, slightly to the east.
 const SUN: Vec3 = Vec3::new(0.30, -0.80, -0.975);
-/// A low sun behind haze, lux on a surface that faces it.
+/// Illuminance of a low sun behind haze on a perpendicular surface, lux.
 const SUN_LUX: Vec3 = Vec3::new(4300.0, 4000.0, 3500.0);
-/// Warm white of the lamps with luminance one.
+/// Warm white of the lamps, of luminance 1.
 const WARM: Vec3 = Vec3::new(1.22, 0.96, 0.75);
-/// Foot of each pendant's cord.
+/// Position (x, z) of each pendant lamp, metres.
 const PENDANTS: [[f32; 2]; 2] = [[-4.6, 3.0], [-1.8, 1.5]];
 const GLOBE_RADIUS: f32 = 0.09;
 const GLOBE_HEIGHT: f32 = 2.2;
 
-/// The sun, and the shafts through which it and the sky shine in.
+/// The sun, and the window shafts through which sunlight and skylight enter.
 ///
-/// A shaft runs along the sun's rays, so it casts no shadow of its own, and from the room one sees its glowing lower
-/// side instead of the void.
+/// A shaft is parallel to the sunlight, so it casts no shadow of its own. Its lower side emits skylight and hides the void
+/// outside.
 pub(super) fn windows(builder: &mut Builder, finishes: &Finishes) {
     let [sill, head] = WINDOWS_Y;
-    // Up the rays and two metres out; widened, so that no ray grazes a side.
+    // Two metres outward, against the sunlight; widened so that no ray grazes a side.
     let out = -SUN * (2.0 / -SUN.z);
     for ([west, east], number) in WINDOWS_X.into_iter().zip(1..) {
         let inner =
@@ -40,7 +40,7 @@ pub(super) fn windows(builder: &mut Builder, finishes: &Finishes) {
     builder.light("sun", LightKind::Directional { direction: SUN.normalize() }, SUN_LUX, "sun");
 }
 
-/// Two pendant lamps: an opal globe under a shade, and the light it throws down as a point below it.
+/// Two pendant lamps: an opal globe under a shade, and a point light below it for the light that it emits downward.
 pub(super) fn lamps(builder: &mut Builder, finishes: &Finishes) {
     for ([x, z], number) in PENDANTS.into_iter().zip(1..) {
         let centre = Vec3::new(x, GLOBE_HEIGHT, z);
@@ -55,20 +55,20 @@ pub(super) fn lamps(builder: &mut Builder, finishes: &Finishes) {
     }
 }
 
-/// A thin bell round a globe at the origin, closed: outside up, inside down.
+/// A thin, closed bell around a globe at the origin.
 fn shade() -> Shape {
     let outside = [(0.30, -0.02), (0.16, 0.14), (0.0, 0.20)].map(Vec2::from);
     let inside = [(0.0, 0.19), (0.155, 0.13), (0.29, -0.02), (0.30, -0.02)].map(Vec2::from);
     lathe(&outside, 16).join(lathe(&inside, 16))
 }
 
-/// The spot that picks out the sphere before the red wall, in its housing under the ceiling.
+/// The spot on the sphere before the red wall, in its housing under the ceiling.
 pub(super) fn spot(builder: &mut Builder, finishes: &Finishes) {
     let position = Vec3::new(-3.9, 2.85, 2.6);
     let direction = (Vec3::new(-5.8, 1.3, 1.2) - position).normalize();
     let kind = LightKind::Spot { position, direction, inner_angle: 0.15, outer_angle: 0.32 };
     builder.light("spot", kind, WARM * 600.0, "spot");
-    // The light sits in the open mouth of the tube; the tube's axis is -Y before it is turned.
+    // The light is in the open end of the tube, whose axis is -Y before it is rotated.
     let tube = [(0.045, 0.0), (0.06, 0.0), (0.06, 0.16), (0.0, 0.16)].map(Vec2::from);
     let bore = [(0.0, 0.02), (0.045, 0.02), (0.045, 0.0)].map(Vec2::from);
     let housing = lathe(&tube, 12).join(lathe(&bore, 12));

@@ -1,4 +1,4 @@
-//! The architecture of the gallery: rooms, steps, dais, pedestals, columns.
+//! Architecture of the gallery: rooms, steps, dais, pedestals, columns.
 
 use glam::Vec2;
 
@@ -13,21 +13,21 @@ use crate::base::ids::MaterialId;
 pub(super) const HALL_HEIGHT: f32 = 4.4;
 /// Ceiling of the red room above its floor, metres.
 pub(super) const RED_ROOM_HEIGHT: f32 = 3.2;
-/// The hall's wall of windows.
+/// Position of the hall's window wall.
 pub(super) const WINDOW_WALL_Z: f32 = 7.2;
 /// West and east edges of the windows.
 pub(super) const WINDOWS_X: [[f32; 2]; 3] = [[0.9, 2.1], [2.7, 3.9], [4.5, 5.7]];
 /// Sill and head of the windows.
 pub(super) const WINDOWS_Y: [f32; 2] = [2.4, 3.6];
-/// Top of the dais, and of the pedestals on the lower floor.
+/// Height of the dais, and of the pedestals on the lower floor, metres.
 pub(super) const DAIS_HEIGHT: f32 = 6.0 * RISER;
-/// South and north edges of the pedestals: (x, z) of the low corner; all are `PEDESTAL` wide.
+/// Names of the sculptures, and (x, z) of the low corner of their pedestals, which are [`PEDESTAL`] wide.
 pub(super) const PEDESTALS: [(&str, [f32; 2]); 3] =
     [("torus", [5.7, 0.9]), ("sphere", [-6.1, 0.9]), ("prism", [-3.4, 4.5])];
-/// Side of a pedestal.
+/// Side of a pedestal, metres.
 pub(super) const PEDESTAL: f32 = 0.6;
 
-/// Height of the doorway; that of the window sills, so that they share a line of the grid.
+/// Height of the doorway, which is that of the window sills, so that they share a grid line.
 const DOOR_HEIGHT: f32 = WINDOWS_Y[0];
 const RISER: f32 = 0.17;
 const TREAD: f32 = 0.3;
@@ -36,7 +36,7 @@ const DAIS_X: [f32; 2] = [8.1, 10.2];
 const COLUMNS_X: [f32; 4] = [0.6, 2.4, 4.2, 6.0];
 const COLUMNS_Z: f32 = 5.4;
 
-/// Everything made of straight walls, in one carving: no leaks, all edges shared.
+/// Adds everything made of straight walls as one carving: closed, with all edges shared.
 pub(super) fn build(builder: &mut Builder, finishes: &Finishes) {
     let mut carving = Carving::default();
     rooms(&mut carving, finishes);
@@ -70,7 +70,7 @@ fn rooms(carving: &mut Carving, finishes: &Finishes) {
     carving.room("red room", red_room, walls(finishes.walnut, finishes.red, white));
     let doorway = ([-0.4, 0.0, STEPS_Z[0]], [0.0, DOOR_HEIGHT, STEPS_Z[1]]);
     carving.room("doorway", doorway, walls(finishes.walnut, white, white));
-    // The luminous ceiling lies a hand's breadth up in its recess.
+    // The luminous ceiling is 10 cm above the ceiling, in a recess.
     let mut recess = [white; 6];
     recess[Side::Above as usize] = panel;
     carving.room("ceiling panel", ([8.7, HALL_HEIGHT, 1.5], [9.6, HALL_HEIGHT + 0.1, 5.7]), recess);
@@ -84,7 +84,7 @@ fn dais(carving: &mut Carving, finishes: &Finishes) {
         let (low, high) = ([west, DAIS_HEIGHT, north], [west + 0.15, DAIS_HEIGHT + 0.9, south]);
         carving.block("parapet", (low, high), plaster, plaster);
     }
-    // Five steps and the dais itself make six risers.
+    // Five steps and the dais have six risers.
     for step in 1..6u8 {
         let (up, back) = (f32::from(step), f32::from(6 - step));
         let low = [west - back * TREAD, 0.0, STEPS_Z[0]];
@@ -92,7 +92,7 @@ fn dais(carving: &mut Carving, finishes: &Finishes) {
     }
 }
 
-/// A row of columns between the windows and the hall, each on its plinth.
+/// Adds a row of columns between the windows and the hall, each on a plinth.
 pub(super) fn columns(builder: &mut Builder, finishes: &Finishes) {
     // Base moulding, slightly tapering shaft, capital; (radius, height above the plinth).
     let top = HALL_HEIGHT - RISER;

@@ -3,7 +3,7 @@ use crate::base::ids::TriangleId;
 use crate::scene::{edge_cross, normal_of};
 
 #[test]
-fn it_is_small_and_has_what_the_head_promises() {
+fn the_gallery_is_small_and_has_five_light_groups_and_four_cameras() {
     let scene = gallery();
     assert!(scene.triangles.len() < 6000, "{} triangles", scene.triangles.len());
     let mut groups = scene.light_groups.clone();
