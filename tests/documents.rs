@@ -26,33 +26,35 @@ fn linked_files(text: &str) -> impl Iterator<Item = &str> {
     targets.filter(|target| !target.is_empty() && !target.contains(':'))
 }
 
-/// Words of code that are a source file or, with a slash at their end, a folder.
+/// Words of code that are a path with a folder and lead to a source file or, with a slash at their end, to a folder.
 fn named_sources(text: &str) -> impl Iterator<Item = &str> {
     let code = text.split('`').skip(1).step_by(2);
     let is_path = |word: &&str| word.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
-    let is_source = |word: &&str| [".rs", ".wgsl", "/"].iter().any(|end| word.ends_with(end) && word.len() > end.len());
+    let is_source = |word: &&str| [".rs", ".wgsl", "/"].iter().any(|end| word.strip_suffix(end).is_some_and(|path| path.contains('/')));
     code.filter(move |word| is_path(word) && is_source(word))
 }
 
 #[test]
 fn links_lead_to_files() {
+    let mut missing = Vec::new();
     for (document, text) in documents() {
-        let folder = root().join(&document);
-        let folder = folder.parent().expect("it is a file");
-        for target in linked_files(&text) {
-            assert!(folder.join(target).exists(), "{} links to {target}, which does not exist", document.display());
-        }
+        let path = root().join(&document);
+        let folder = path.parent().expect("it is a file");
+        let targets = linked_files(&text).filter(|target| !folder.join(target).exists());
+        missing.extend(targets.map(|target| format!("{} links to {target}", document.display())));
     }
+    assert!(missing.is_empty(), "these do not exist:\n{}", missing.join("\n"));
 }
 
 #[test]
 fn named_sources_exist() {
+    let mut missing = Vec::new();
+    let exists = |word: &str| ["", "src", "shaders"].iter().any(|folder| root().join(folder).join(word).exists());
     for (document, text) in documents() {
-        for word in named_sources(&text) {
-            let exists = ["", "src", "shaders"].iter().any(|folder| root().join(folder).join(word).exists());
-            assert!(exists, "{} names {word}, which is neither there nor in src or shaders", document.display());
-        }
+        let words = named_sources(&text).filter(|word| !exists(word));
+        missing.extend(words.map(|word| format!("{} names {word}", document.display())));
     }
+    assert!(missing.is_empty(), "these are neither there nor in src or shaders:\n{}", missing.join("\n"));
 }
 
 #[test]
@@ -76,8 +78,8 @@ fn the_book_links_only_to_what_is_in_it() {
 
 #[test]
 fn files_are_found_in_the_text() {
-    let text = "See [shadows](shadows.md#maps), ![](a/b.png), [home](https://example.org) and `base/ids.rs` or `base/` \
-                with `--size 3` and `a.rs b`.";
+    let text = "See [shadows](shadows.md#maps), ![](a/b.png), [home](https://example.org) and `base/ids.rs` or `scene/gltf/` \
+                with `--size 3`, `ids.rs` and `a.rs b`.";
     assert_eq!(linked_files(text).collect::<Vec<_>>(), ["shadows.md", "a/b.png"]);
-    assert_eq!(named_sources(text).collect::<Vec<_>>(), ["base/ids.rs", "base/"]);
+    assert_eq!(named_sources(text).collect::<Vec<_>>(), ["base/ids.rs", "scene/gltf/"]);
 }
