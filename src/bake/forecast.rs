@@ -1,7 +1,6 @@
 //! What a bake will take, before it is begun.
 
-use super::method::Method;
-use super::settings::{BakeSettings, SHOOTING_RAYS};
+use super::settings::{BakeSettings, Method, SHOOTING_RAYS};
 use crate::form_factor::Entry;
 use crate::patch::{Element, MeshError, PatchMesh};
 use crate::scene::{Scene, Triangle, Vertex};

@@ -1,7 +1,7 @@
 //! Which way of finding form factors suits a scene and a device.
 
 use super::BakeError;
-use super::settings::{BakeSettings, SHOOTING_RAYS};
+use super::settings::{BakeSettings, Method, SHOOTING_RAYS};
 use crate::form_factor::FormFactors;
 use crate::form_factor::hemicube::{Hemicubes, size_for_patches};
 use crate::form_factor::hemisphere::Hemispheres;
@@ -9,27 +9,6 @@ use crate::form_factor::row_cache::{CachedRows, RowCache};
 use crate::gpu::Gpu;
 use crate::patch::PatchMesh;
 use crate::trace::Tracer;
-
-/// How form factors are found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Method {
-    /// Item buffers drawn by the GPU.
-    Hemicube,
-    /// Cosine-distributed rays on the CPU.
-    Hemisphere,
-}
-
-impl Method {
-    /// The faster one: a graphics card draws hemicubes faster than rays are traced, a driver that draws on the CPU does not.
-    #[must_use]
-    pub fn fastest(gpu: Option<&Gpu>) -> Self {
-        match gpu {
-            Some(gpu) if !gpu.is_software() => Self::Hemicube,
-            _ => Self::Hemisphere,
-        }
-    }
-}
 
 /// What form factors are asked of: a device that draws hemicubes, else rays.
 #[derive(Clone, Copy)]

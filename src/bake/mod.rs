@@ -33,9 +33,8 @@ use crate::scene::Scene;
 use crate::trace::Tracer;
 
 pub use forecast::Forecast;
-pub use method::Method;
 pub use report::{Flux, Memory, Report};
-pub use settings::{BakeSettings, Quality, Solver};
+pub use settings::{BakeSettings, Method, Quality, Solver, UnknownName};
 pub use watch::{Seconds, Watch};
 
 use certificate::{Closure, largest_neighbour_step, peak_memory, reciprocity_residual};

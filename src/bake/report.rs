@@ -3,9 +3,8 @@
 use glam::DVec3;
 use serde::Serialize;
 
-use super::Method;
 use super::certificate::Closure;
-use super::settings::{Quality, Solver};
+use super::settings::{Method, Quality, Solver};
 use super::watch::Seconds;
 use crate::base::colour::LUMINANCE;
 use crate::radiosity::progressive::Energy;

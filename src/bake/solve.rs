@@ -2,10 +2,10 @@
 
 use std::time::Instant;
 
+use super::BakeError;
 use super::method::Seer;
-use super::settings::BakeSettings;
+use super::settings::{BakeSettings, Solver};
 use super::watch::Watch;
-use super::{BakeError, Solver};
 use crate::base::ids::PatchId;
 use crate::base::progress::Stage;
 use crate::form_factor::FormFactors;

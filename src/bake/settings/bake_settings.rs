@@ -1,37 +1,11 @@
-//! Presets that a user need not tune, and the sizes they mean on a given scene.
+//! All numbers of a bake, and the sizes that they mean on a given scene.
 
-use super::Method;
+use super::{Method, Quality, Solver};
 use crate::patch::MeshSettings;
 use crate::radiosity::adaptive::RefineSettings;
 use crate::radiosity::gather::GatherSettings;
 use crate::radiosity::progressive::ProgressiveSettings;
 use crate::scene::Scene;
-
-/// Named presets.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Quality {
-    /// A first look in seconds.
-    Draft,
-    /// For walking through.
-    #[default]
-    Medium,
-    /// For measuring and pictures.
-    High,
-}
-
-/// How the system of patches is solved; all ways lead to one answer.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Solver {
-    /// Shooting, the greatest unshot power first.
-    #[default]
-    Progressive,
-    /// Gathering pass after pass: each brings one more reflection.
-    Gathering,
-    /// The full matrix: small scenes only.
-    Matrix,
-}
 
 /// How a scene is baked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,10 +51,10 @@ pub struct BakeSettings {
 }
 
 /// Rays a point and emitter in penumbrae where only the mean over a patch counts.
-pub(super) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 64;
+pub(in crate::bake) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 64;
 
 /// Rays of the hemispheres that shoot.
-pub(super) const SHOOTING_RAYS: u32 = 512;
+pub(in crate::bake) const SHOOTING_RAYS: u32 = 512;
 
 /// Farthest that gathered light is borrowed from, in element sizes.
 const BORROW_REACH: f32 = 4.0;
@@ -89,7 +63,7 @@ const BORROW_REACH: f32 = 4.0;
 const MAX_SHOTS_A_PATCH: usize = 64;
 
 /// Rows kept between shots.
-pub(super) const ROW_BYTES: usize = 1 << 30;
+pub(in crate::bake) const ROW_BYTES: usize = 1 << 30;
 
 /// Mean area of an element in squares of the element size (bisection ends between 1/8 and 1/4).
 const AREA_OF_ELEMENT: f64 = 0.18;
@@ -171,13 +145,13 @@ impl BakeSettings {
     }
 
     /// About the most elements that light may cut the scene into.
-    pub(super) fn max_elements(&self, scene: &Scene) -> usize {
+    pub(in crate::bake) fn max_elements(&self, scene: &Scene) -> usize {
         let aim = self.target_elements + ELEMENTS_A_TRIANGLE * scene.triangles.len() as f64;
         (f64::from(self.max_growth) * aim) as usize
     }
 
     /// How elements follow direct light before it is reflected.
-    pub(super) fn refine(&self, scene: &Scene, sizes: &MeshSettings) -> RefineSettings {
+    pub(in crate::bake) fn refine(&self, scene: &Scene, sizes: &MeshSettings) -> RefineSettings {
         let min_edge = self.min_edge * sizes.element_size;
         RefineSettings {
             max_error: self.refine_error,
@@ -188,11 +162,11 @@ impl BakeSettings {
     }
 
     /// How they follow all light in the end, given how they followed direct light.
-    pub(super) fn sharpen(&self, refine: RefineSettings, sizes: &MeshSettings) -> RefineSettings {
+    pub(in crate::bake) fn sharpen(&self, refine: RefineSettings, sizes: &MeshSettings) -> RefineSettings {
         RefineSettings { min_edge: self.sharp_edge * sizes.element_size, ..refine }
     }
 
-    pub(super) fn gather(&self, sizes: &MeshSettings) -> GatherSettings {
+    pub(in crate::bake) fn gather(&self, sizes: &MeshSettings) -> GatherSettings {
         GatherSettings {
             tolerance: self.cache_tolerance,
             noise: self.noise,
@@ -201,7 +175,7 @@ impl BakeSettings {
         }
     }
 
-    pub(super) fn progressive(&self) -> ProgressiveSettings {
+    pub(in crate::bake) fn progressive(&self) -> ProgressiveSettings {
         ProgressiveSettings {
             threshold: self.threshold,
             max_shots_a_patch: self.passes.unwrap_or(MAX_SHOTS_A_PATCH),

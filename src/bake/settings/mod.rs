@@ -1,0 +1,18 @@
+//! What a bake can be asked for: presets, form-factor methods, solvers, and the numbers behind them.
+//!
+//! [`Quality`], [`Method`] and [`Solver`] have one table each (value, name, hint). The command line, the panels, the
+//! benches and the report read it; nobody lists the values a second time.
+
+mod bake_settings;
+mod choice;
+mod method;
+mod quality;
+mod solver;
+
+pub use bake_settings::BakeSettings;
+pub use choice::UnknownName;
+pub use method::Method;
+pub use quality::Quality;
+pub use solver::Solver;
+
+pub(super) use bake_settings::{PENUMBRA_RAYS_ON_ELEMENTS, ROW_BYTES, SHOOTING_RAYS};

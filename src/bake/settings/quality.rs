@@ -1,0 +1,23 @@
+//! Named presets.
+
+use super::choice::choice_table;
+
+/// A preset of all numbers of a bake.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Quality {
+    /// A first look in seconds.
+    Draft,
+    /// For walking through.
+    #[default]
+    Medium,
+    /// For measuring and pictures.
+    High,
+}
+
+choice_table! {
+    Quality {
+        Draft: "draft", "A first look: coarse, in seconds";
+        Medium: "medium", "For walking through";
+        High: "high", "For measuring: fine shadows, takes its time";
+    }
+}
