@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use hemicube::form_factor::hemicube::Hemicubes;
-use hemicube::form_factor::{FormFactors, Viewpoint};
+use hemicube::form_factor::{FormFactorSource, Viewpoint};
 use hemicube::gpu::Gpu;
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::sites::Sites;

@@ -12,7 +12,7 @@ use hemicube::bake::{BakeSettings, Forecast, Quality, bake};
 use hemicube::base::ids::{InstanceId, MaterialId};
 use hemicube::base::progress::Unwatched;
 use hemicube::form_factor::hemicube::Hemicubes;
-use hemicube::form_factor::{FormFactors, Viewpoint};
+use hemicube::form_factor::{FormFactorSource, Viewpoint};
 use hemicube::gpu::Gpu;
 use hemicube::patch::PatchMesh;
 use hemicube::radiosity::sites::Sites;

@@ -1,19 +1,19 @@
-// Item buffer of a hemicube face: which element is seen through each pixel.
+// Item buffer of a hemicube face: the element that each pixel shows (Weghorst, Hooper, Greenberg 1984).
 //
-// The input triangles are drawn, not the elements: the fragment finds its element by descending the triangle's bisection
+// The input triangles are drawn, not the elements: each fragment finds its element by descending the triangle's bisection
 // tree with its barycentric position, so the cost depends on input triangles and pixels alone.
 //
-// Item: 0 nothing, else element id + 1; the highest bit tells the black back of a single-sided surface.
+// Item: 0 nothing, else element id + 1; the highest bit marks the black back of a single-sided surface.
 
 struct Vertex {
     @builtin(vertex_index) index: u32,
     @location(0) position: vec3<f32>,
-    // Root of the triangle's tree, and items to add on its back; 0 where the back is black.
+    // Root of the triangle's tree, and the item offset of its back; 0 if the back is black.
     @location(1) ids: vec2<u32>,
 }
 
 struct Triangle {
-    // Index into `cutouts` + 1; 0 where the triangle is opaque.
+    // Index into `cutouts` + 1; 0 if the triangle is opaque.
     cutout: u32,
     // Vertex alpha of the three corners, 8 bits each.
     vertex_alpha: u32,
@@ -29,11 +29,11 @@ struct Cutout {
     // 0 repeat, 1 mirror, 2 clamp; u in the low half, v in the high half.
     wrap: u32,
     alpha_factor: f32,
-    // Smallest solid alpha; negative where light passes in the share 1 - alpha.
+    // Smallest solid alpha; negative if the share 1 - alpha of the light passes.
     cutoff: f32,
 }
 
-// One face of one hemicube, at a dynamic offset: software drivers read uniforms once and storage for every vertex.
+// One face of one hemicube, at a dynamic offset. A uniform, because software drivers read storage anew for every vertex.
 @group(0) @binding(0) var<uniform> view: mat4x4<f32>;
 @group(0) @binding(1) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(2) var<storage, read> tree: array<u32>;
@@ -48,9 +48,9 @@ const BLACK_BACK: u32 = 0x80000000u;
 
 struct Varyings {
     @builtin(position) position: vec4<f32>,
-    // Weights of the first two corners. Few locations: software drivers set each up for every triangle.
+    // Weights of the first two corners. Few locations, because software drivers set up each one for every triangle.
     @location(0) weights: vec2<f32>,
-    // Triangle, root of its tree, items to add on its back.
+    // Triangle, root of its tree, item offset of its back.
     @location(1) @interpolate(flat) ids: vec3<u32>,
 }
 
@@ -75,9 +75,9 @@ fn fragment(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0)
     return side + FIRST_ELEMENT + element_at(in.ids.y, barycentric);
 }
 
-// The element that holds a barycentric position; see Node in src/patch/tree.rs.
+// The element that contains a barycentric position; `Node` in src/patch describes the words of the tree.
 //
-// Software drivers also run pixels outside the triangle, whose reads yield zero: a zero node ends the descent.
+// Software drivers also shade pixels outside the triangle, whose reads return zero: a zero node ends the descent.
 fn element_at(root: u32, barycentric: vec3<f32>) -> u32 {
     var w = barycentric;
     var node = root;
@@ -95,7 +95,7 @@ fn element_at(root: u32, barycentric: vec3<f32>) -> u32 {
     return (node >> 6u) + path;
 }
 
-// Weights in the half of the triangle that holds the point.
+// Barycentric weights in the half of the triangle that contains the point.
 fn halved(w: vec3<f32>) -> vec3<f32> {
     let at_midpoint = 2.0 * min(w.y, w.z);
     let rest = abs(w.y - w.z);
@@ -112,7 +112,7 @@ fn is_hole(index: u32, w: vec3<f32>, pixel: vec2<f32>) -> bool {
     let vertex_alpha = dot(unpack4x8unorm(triangle.vertex_alpha).xyz, w);
     let alpha = texel(cutout, uv) * cutout.alpha_factor * vertex_alpha;
     if cutout.cutoff < 0.0 {
-        // Screen-door: a pixel is solid with probability alpha.
+        // Screen-door transparency: a pixel is solid with probability alpha.
         return alpha <= unit_hash(vec2<u32>(pixel) ^ vec2<u32>(index * 1973u, index));
     }
     return alpha < cutout.cutoff;

@@ -3,9 +3,8 @@
 use glam::Vec3;
 use hemicube::form_factor::hemicube::{Hemicubes, size_for_patches};
 use hemicube::form_factor::hemisphere::Hemispheres;
-use hemicube::form_factor::pair::PolygonPair;
-use hemicube::form_factor::polygon::Polygon;
-use hemicube::form_factor::{Entry, FormFactors, Row, Viewpoint, map_rows};
+use hemicube::form_factor::polygon_pair::{Polygon, PolygonPair};
+use hemicube::form_factor::{Entry, FormFactorSource, Row, Viewpoint, map_rows};
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::sites::Sites;
 use hemicube::scene::{Scene, SceneBuilder, builtin};
@@ -23,7 +22,7 @@ fn room(seed: u32) -> (Scene, PatchMesh, Vec<Viewpoint>) {
     (scene, mesh, viewpoints)
 }
 
-fn rows(method: &mut dyn FormFactors, viewpoints: &[Viewpoint]) -> Vec<Row> {
+fn rows(method: &mut dyn FormFactorSource, viewpoints: &[Viewpoint]) -> Vec<Row> {
     map_rows(method, viewpoints, &|| true, |_, row| row.clone()).unwrap()
 }
 

@@ -6,7 +6,7 @@ use glam::Vec3;
 use hemicube::bake::{BakeSettings, Quality, bake};
 use hemicube::base::ids::GroupId;
 use hemicube::base::progress::Unwatched;
-use hemicube::form_factor::analytic::point_to_polygon;
+use hemicube::form_factor::point_to_polygon;
 use hemicube::raytrace::{
     Ambient, Film, MeasuringPoint, PathSettings, TwoPassSettings, irradiance, path_traced, two_pass,
 };

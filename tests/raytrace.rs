@@ -7,7 +7,7 @@ use hemicube::bake::{BakeSettings, Method, Quality, Solver, bake};
 use hemicube::baked::BakedScene;
 use hemicube::base::ids::GroupId;
 use hemicube::base::progress::Unwatched;
-use hemicube::form_factor::analytic::point_to_polygon;
+use hemicube::form_factor::point_to_polygon;
 use hemicube::raytrace::{
     Ambient, Film, Irradiance, MeasuringPoint, PathSettings, TwoPassSettings, irradiance, path_traced, two_pass,
 };

@@ -2,10 +2,10 @@
 
 use super::BakeError;
 use super::settings::{BakeSettings, Method, SHOOTING_RAYS};
-use crate::form_factor::FormFactors;
+use crate::form_factor::FormFactorSource;
 use crate::form_factor::hemicube::{Hemicubes, size_for_patches};
 use crate::form_factor::hemisphere::Hemispheres;
-use crate::form_factor::row_cache::{CachedRows, RowCache};
+use crate::form_factor::row_cache::{CachedFormFactors, RowCache};
 use crate::gpu::Gpu;
 use crate::patch::PatchMesh;
 use crate::trace::Tracer;
@@ -39,18 +39,18 @@ impl<'a> Seer<'a> {
     }
 
     /// Coarse form factors: shooters see patches, not detail.
-    pub(super) fn shooting(self) -> Box<dyn FormFactors + 'a> {
+    pub(super) fn shooting(self) -> Box<dyn FormFactorSource + 'a> {
         self.with(size_for_patches(self.tracer.scene(), self.mesh), SHOOTING_RAYS)
     }
 
     /// Form factors for the light that is shown.
-    pub(super) fn gathering(self, settings: &BakeSettings) -> Box<dyn FormFactors + 'a> {
+    pub(super) fn gathering(self, settings: &BakeSettings) -> Box<dyn FormFactorSource + 'a> {
         self.with(settings.hemicube_px, settings.hemisphere_rays)
     }
 
     /// Hemicubes `size_px` pixels wide on a device, else hemispheres of `num_rays` rays.
-    fn with(self, size_px: u32, num_rays: u32) -> Box<dyn FormFactors + 'a> {
-        let (method, label): (Box<dyn FormFactors + 'a>, _) = match self.gpu {
+    fn with(self, size_px: u32, num_rays: u32) -> Box<dyn FormFactorSource + 'a> {
+        let (method, label): (Box<dyn FormFactorSource + 'a>, _) = match self.gpu {
             Some(gpu) => (
                 Box::new(Hemicubes::new(gpu, self.tracer.scene(), self.mesh, size_px)),
                 format!("hemicubes of {size_px} px by {}", gpu.name()),
@@ -61,7 +61,7 @@ impl<'a> Seer<'a> {
             ),
         };
         match self.rows {
-            Some(rows) => Box::new(CachedRows::new(method, &label, self.mesh, rows)),
+            Some(rows) => Box::new(CachedFormFactors::new(method, &label, self.mesh, rows)),
             None => method,
         }
     }

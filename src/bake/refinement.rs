@@ -3,7 +3,7 @@
 use super::watch::Watch;
 use super::{BakeError, BakeSettings};
 use crate::base::colour::luminance;
-use crate::form_factor::{FormFactors, Viewpoint};
+use crate::form_factor::{FormFactorSource, Viewpoint};
 use crate::patch::{MeshSettings, PatchMesh};
 use crate::radiosity::Field;
 use crate::radiosity::adaptive::{Cut, Lit, RefineSettings};
@@ -67,7 +67,7 @@ impl<'a> Lighting<'a> {
         mesh: &PatchMesh,
         (direct, gathered): (&Field, &Gathered),
         gatherer: &mut Gatherer<'_>,
-        method: &mut dyn FormFactors,
+        method: &mut dyn FormFactorSource,
     ) -> Result<Option<(PatchMesh, Field, Gathered)>, BakeError> {
         if !self.is_wanted() {
             return Ok(None);

@@ -8,7 +8,7 @@ use super::settings::{BakeSettings, Solver};
 use super::watch::Watch;
 use crate::base::ids::PatchId;
 use crate::base::progress::Stage;
-use crate::form_factor::FormFactors;
+use crate::form_factor::FormFactorSource;
 use crate::patch::PatchMesh;
 use crate::radiosity::Field;
 use crate::radiosity::full_matrix;
@@ -119,7 +119,7 @@ impl Task<'_> {
     /// The rows of all patches, and the seconds they took.
     fn all_rows(&self) -> Result<(RowStore, f64), BakeError> {
         let start = Instant::now();
-        let mut method: Box<dyn FormFactors> = self.seer.shooting();
+        let mut method: Box<dyn FormFactorSource> = self.seer.shooting();
         let mut rows = RowStore::new(self.mesh.patches.len(), self.settings.points_a_patch, usize::MAX);
         let patches: Vec<PatchId> = (0..self.mesh.patches.len()).map(PatchId::new).collect();
         for (batch, patches) in patches.chunks(PATCHES_A_BATCH).enumerate() {

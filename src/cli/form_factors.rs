@@ -8,8 +8,7 @@ use glam::DVec3;
 
 use super::value::hemicube_size;
 use crate::base::output::write_whole;
-use crate::form_factor::pair::{Estimate, PolygonPair};
-use crate::form_factor::polygon::Polygon;
+use crate::form_factor::polygon_pair::{Estimate, Polygon, PolygonPair};
 use crate::gpu::Gpu;
 
 /// Options of `hemicube form-factors`.

@@ -8,8 +8,7 @@ use glam::{Vec2, Vec3};
 use crate::base::colour::luminance;
 use crate::base::ids::{ElementId, GroupId};
 use crate::base::sampling::{r2, triangle_from_square};
-use crate::base::triangle::interpolate;
-use crate::form_factor::analytic::point_to_polygon;
+use crate::form_factor::point_to_polygon;
 use crate::patch::PatchMesh;
 use crate::scene::{Scene, area_of, normal_of};
 

@@ -16,7 +16,7 @@ use super::noise::{Noise, irradiance_and_variance};
 use super::sight::Sight;
 use crate::base::progress::{Progress, Stage};
 use crate::base::sampling::{hash, tangent_frame};
-use crate::form_factor::{FormFactorError, FormFactors, MAX_BACK_SHARE, Row, Viewpoint, map_rows};
+use crate::form_factor::{FormFactorError, FormFactorSource, MAX_BACK_SHARE, Row, Viewpoint, map_rows};
 use crate::patch::PatchMesh;
 
 /// Sites gathered before the cache and the noise are asked again: few at first, so that what they find serves the next, then
@@ -115,7 +115,7 @@ impl<'a> Gatherer<'a> {
     /// The form factors could not be found.
     pub fn at(
         &mut self,
-        method: &mut dyn FormFactors,
+        method: &mut dyn FormFactorSource,
         sites: &[Viewpoint],
         progress: &dyn Progress,
     ) -> Result<Gathered, FormFactorError> {

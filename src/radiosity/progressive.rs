@@ -16,7 +16,7 @@ use super::sites::Sites;
 use crate::base::colour::luminance;
 use crate::base::ids::PatchId;
 use crate::base::progress::{Progress, Stage};
-use crate::form_factor::{FormFactorError, FormFactors};
+use crate::form_factor::{FormFactorError, FormFactorSource};
 use crate::patch::{Element, PatchMesh};
 
 /// How far to go.
@@ -177,7 +177,7 @@ impl<'a> Progressive<'a> {
     ///
     /// # Errors
     /// The form factors could not be found.
-    pub fn step(&mut self, method: &mut dyn FormFactors, progress: &dyn Progress) -> Result<f64, FormFactorError> {
+    pub fn step(&mut self, method: &mut dyn FormFactorSource, progress: &dyn Progress) -> Result<f64, FormFactorError> {
         let shooters = self.brightest();
         let start = Instant::now();
         let is_complete = self.rows.find(&shooters, self.mesh, &self.sites, method, progress)?;

@@ -3,7 +3,7 @@
 use super::sites::Sites;
 use crate::base::ids::PatchId;
 use crate::base::progress::Progress;
-use crate::form_factor::{Entry, FormFactorError, FormFactors, MAX_BACK_SHARE, Viewpoint, map_rows};
+use crate::form_factor::{Entry, FormFactorError, FormFactorSource, MAX_BACK_SHARE, Viewpoint, map_rows};
 use crate::patch::PatchMesh;
 
 /// What a patch sees: one entry an element, sorted by element.
@@ -55,7 +55,7 @@ impl RowStore {
         patches: &[PatchId],
         mesh: &PatchMesh,
         sites: &Sites,
-        method: &mut dyn FormFactors,
+        method: &mut dyn FormFactorSource,
         progress: &dyn Progress,
     ) -> Result<bool, FormFactorError> {
         let missing: Vec<PatchId> = patches.iter().copied().filter(|&p| self.get(p).is_none()).collect();

@@ -53,7 +53,7 @@ fn direct_light_of_many_samples_is_that_of_the_closed_form() {
     let scene = builtin::cornell();
     let (floor, normal) = (Vec3::new(4.5, 0.0, 1.0), Vec3::Y);
     let lamp = [[3.43, 2.27], [3.43, 3.32], [2.13, 3.32], [2.13, 2.27]].map(|[x, z]| Vec3::new(x, 5.488, z));
-    let factor = hemicube::form_factor::analytic::point_to_polygon(floor, normal, &lamp);
+    let factor = hemicube::form_factor::point_to_polygon(floor, normal, &lamp);
     let samples = hemicube::render::shadow::light_samples(&scene, 64, 0.0);
     let sum: Vec3 = samples.iter().map(|sample| sample.irradiance(floor, normal)).sum();
     let expected = Vec3::new(17.0, 12.0, 4.0) * std::f32::consts::PI * factor.abs();

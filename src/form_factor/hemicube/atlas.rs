@@ -1,24 +1,21 @@
-//! The atlas of one submission: many hemicubes in one pair of textures, drawn in one pass, copied out in one copy.
+//! The atlas of one submission: many hemicubes in one pair of textures, drawn in one pass and read back in one copy.
 
 use std::num::NonZero;
 
-use glam::{Mat4, Vec3};
+use glam::Mat4;
 
-use super::faces::{NUM_FACES, cell_rectangle, projections};
+use super::faces::{Face, NUM_FACES, faces_of};
 use super::geometry::Geometry;
-use super::indices::{Indices, lists_of};
+use super::index_lists::{IndexBuffer, index_lists};
+use super::layout::{ATLAS_HEIGHT, ATLAS_WIDTH, Layout};
 use crate::form_factor::Viewpoint;
 use crate::gpu::Gpu;
 
-/// Pixels across an atlas; a multiple of every hemicube size and of the copy alignment.
-pub(super) const ATLAS_WIDTH: u32 = 512;
-/// Pixels down an atlas: one hemicube of the largest size, 64 of the usual one.
-const ATLAS_HEIGHT: u32 = 1536;
-
-/// Bytes from one view to the next: what every device can offset a uniform by.
+/// Bytes from one view to the next: the largest alignment of dynamic uniform offsets that any device requires.
 const VIEW_STRIDE: usize = 256;
 
-/// Vertices of a draw call of everything: software drivers touch all of them again for every few clipped triangles.
+/// Vertices of one draw call without culling: a software driver processes all vertices of a call again for every few clipped
+/// triangles.
 const MAX_VERTICES: u32 = 3 * 512;
 
 /// Targets and buffers of one submission in flight.
@@ -28,60 +25,18 @@ pub(super) struct Atlas {
     depth_view: wgpu::TextureView,
     views: wgpu::Buffer,
     bindings: wgpu::BindGroup,
-    indices: Indices,
+    indices: IndexBuffer,
     readback: wgpu::Buffer,
 }
 
-/// How hemicubes `n` pixels wide are laid out in an atlas.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Layout {
-    pub n: u32,
-}
-
-impl Layout {
-    pub(super) fn columns(self) -> u32 {
-        ATLAS_WIDTH / self.n
-    }
-
-    /// Hemicubes a submission.
-    pub(super) fn capacity(self) -> usize {
-        (self.columns() * (ATLAS_HEIGHT / (3 * self.n))) as usize
-    }
-
-    /// Top left pixel of a cell.
-    pub(super) fn origin(self, cell: usize) -> (u32, u32) {
-        let cell = cell as u32;
-        (cell % self.columns() * self.n, cell / self.columns() * 3 * self.n)
-    }
-}
-
-/// One face of one hemicube.
-pub(super) struct Face {
-    pub clip_from_world: Mat4,
-    pub eye: Vec3,
-    /// Left, top, width and height in the atlas.
-    rectangle: [u32; 4],
-}
-
-impl Face {
-    /// Width and height, pixels.
-    pub(super) fn size(&self) -> (u32, u32) {
-        (self.rectangle[2], self.rectangle[3])
-    }
-}
-
-/// The faces of hemicubes that fill an atlas cell by cell.
-fn faces_of(viewpoints: &[Viewpoint], layout: Layout, near: f32) -> Vec<Face> {
-    let of_cell = |(cell, viewpoint): (usize, &Viewpoint)| {
-        let (left, top) = layout.origin(cell);
-        let eye = viewpoint.position;
-        let face = move |(face, clip_from_world)| {
-            let (width, height, down) = cell_rectangle(face, layout.n);
-            Face { clip_from_world, eye, rectangle: [left, top + down, width, height] }
-        };
-        projections(viewpoint, near).into_iter().enumerate().map(face)
-    };
-    viewpoints.iter().enumerate().flat_map(of_cell).collect()
+/// What every submission draws with.
+pub(super) struct AtlasDraw<'a> {
+    pub gpu: &'a Gpu,
+    pub pipeline: &'a wgpu::RenderPipeline,
+    pub geometry: &'a Geometry,
+    pub layout: Layout,
+    /// Distance of the near plane, metres.
+    pub near: f32,
 }
 
 impl Atlas {
@@ -125,24 +80,19 @@ impl Atlas {
         });
         let items_view = items.create_view(&wgpu::TextureViewDescriptor::default());
         let depth_view = depth.create_view(&wgpu::TextureViewDescriptor::default());
-        Self { items, items_view, depth_view, views, bindings, indices: Indices::new(gpu), readback }
+        Self { items, items_view, depth_view, views, bindings, indices: IndexBuffer::new(gpu), readback }
     }
 
-    /// Draws the hemicubes of `viewpoints` and asks for their items; returns what to wait for.
-    pub(super) fn submit(
-        &mut self,
-        gpu: &Gpu,
-        pipeline: &wgpu::RenderPipeline,
-        geometry: &Geometry,
-        layout: Layout,
-        viewpoints: &[Viewpoint],
-        near: f32,
-    ) -> wgpu::SubmissionIndex {
+    /// Draws the hemicubes of `viewpoints` and starts the read-back of their items; returns the submission to wait for.
+    ///
+    /// If the index lists of all faces do not fit, the faces are drawn in several submissions.
+    pub(super) fn submit(&mut self, draw: &AtlasDraw<'_>, viewpoints: &[Viewpoint]) -> wgpu::SubmissionIndex {
+        let &AtlasDraw { gpu, pipeline, geometry, layout, near } = draw;
         let faces = faces_of(viewpoints, layout, near);
         self.write_views(gpu, &faces);
         let mut drawn = 0;
         while drawn < faces.len() {
-            let lists = geometry.culling.as_ref().map(|culling| lists_of(culling, &faces[drawn..]));
+            let lists = geometry.culling.as_ref().map(|culling| index_lists(culling, &faces[drawn..]));
             let ranges = lists.map(|lists| self.indices.write(gpu, &lists));
             let count = ranges.as_ref().map_or(faces.len(), Vec::len);
             let mut encoder = new_encoder(gpu);
@@ -158,7 +108,7 @@ impl Atlas {
                 }
             }
             drop(pass);
-            // What is written to the list of indices is seen by this submission and not by those before.
+            // A write to the index buffer takes effect before this submission and after those before it.
             gpu.queue.submit([encoder.finish()]);
             drawn += count;
         }
@@ -221,12 +171,12 @@ impl Atlas {
         })
     }
 
-    /// The items, mapped; only after the submission has ended.
+    /// The items, mapped; valid after the submission has ended.
     pub(super) fn items(&self) -> Result<wgpu::BufferView, wgpu::MapRangeError> {
         self.readback.get_mapped_range(..)
     }
 
-    /// Gives the mapped items back, so that the atlas can be drawn again.
+    /// Unmaps the items, so that the atlas can be drawn again.
     pub(super) fn release(&self) {
         self.readback.unmap();
     }

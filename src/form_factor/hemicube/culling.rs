@@ -1,6 +1,6 @@
-//! What a face need not draw: chunks outside its view, and triangles that cover the centre of no pixel.
+//! What a face need not draw: chunks outside its frustum, and triangles that cover the centre of no pixel.
 //!
-//! In a finely modelled scene most triangles in view fall between the pixels of a hemicube; a driver finds them too, but
+//! In a finely modelled scene most triangles in view fall between the pixels of a hemicube. A driver rejects them too, but
 //! only after it has shaded and set up their corners.
 
 use glam::{BVec4A, Mat4, Vec3, Vec4};
@@ -13,7 +13,7 @@ use crate::scene::chunks::{CHUNK, chunk_bounds};
 /// Triangles tested together.
 const LANES: usize = 4;
 
-/// Pixels by which a corner may be off: devices snap to a sixteenth of a pixel or finer, and round.
+/// Pixels by which a device may displace a corner: it snaps to a sixteenth of a pixel or finer, and rounds.
 const DISPLACEMENT: f32 = 1.0 / 32.0 + ROUNDING;
 const ROUNDING: f32 = 1.0 / 64.0;
 
@@ -28,11 +28,11 @@ pub(super) struct Culling {
     reach: f32,
 }
 
-/// Corners of four triangles: `[corner][axis]`; those without a triangle are no numbers, which pass no test.
+/// Corners of four triangles: `[corner][axis]`. Unused lanes are NaN, which fails every comparison.
 type Lanes = [[Vec4; 3]; 3];
 
-/// Where a chunk lies in the order of drawing.
-struct Seen {
+/// A chunk in view.
+struct VisibleChunk {
     distance_squared: f32,
     chunk: usize,
 }
@@ -46,19 +46,19 @@ impl Culling {
         Self { chunks, lanes, reach }
     }
 
-    /// Indices of the corners that a face of `size` pixels draws from `eye`, the nearest chunks first: what lies behind
-    /// them is not shaded.
+    /// Indices of the corners that a face of `size` pixels draws from `eye`, the nearest chunks first, so that the depth test
+    /// rejects most of the others before they are shaded.
     pub(super) fn indices(&self, clip_from_world: &Mat4, eye: Vec3, size: (u32, u32)) -> Vec<u32> {
         let frustum = Frustum::new(clip_from_world);
         let meets = |(chunk, bounds): (usize, &Bounds)| {
             let distance_squared = eye.distance_squared(eye.clamp(bounds.low, bounds.high));
-            frustum.meets(bounds).then_some(Seen { distance_squared, chunk })
+            frustum.meets(bounds).then_some(VisibleChunk { distance_squared, chunk })
         };
-        let mut seen: Vec<Seen> = self.chunks.iter().enumerate().filter_map(meets).collect();
-        seen.sort_unstable_by(|a, b| a.distance_squared.total_cmp(&b.distance_squared).then(a.chunk.cmp(&b.chunk)));
+        let mut visible: Vec<VisibleChunk> = self.chunks.iter().enumerate().filter_map(meets).collect();
+        visible.sort_unstable_by(|a, b| a.distance_squared.total_cmp(&b.distance_squared).then(a.chunk.cmp(&b.chunk)));
         let projection = Projection::new(clip_from_world, size, self.reach);
         let mut indices = Vec::new();
-        for Seen { chunk, .. } in seen {
+        for VisibleChunk { chunk, .. } in visible {
             const LANES_A_CHUNK: usize = CHUNK / LANES;
             let first = chunk * LANES_A_CHUNK;
             let end = (first + LANES_A_CHUNK).min(self.lanes.len());
@@ -87,12 +87,12 @@ fn lanes_of(triangles: impl Iterator<Item = [Vec3; 3]>) -> Lanes {
     lanes
 }
 
-/// How a face projects, each number in all lanes.
+/// The projection of a face, each number in all lanes.
 struct Projection {
     /// Rows x, y and w of the clip-from-world matrix.
     rows: [[Vec4; 4]; 3],
     near: Vec4,
-    /// What is nearer than this may land anywhere: it is always drawn.
+    /// Corners nearer than this may be projected anywhere, so their triangles are always drawn.
     too_near: Vec4,
     /// Half of the width and of the height, pixels.
     half: [Vec4; 2],
@@ -102,7 +102,7 @@ impl Projection {
     fn new(clip_from_world: &Mat4, (width, height): (u32, u32), reach: f32) -> Self {
         let row = |i: usize| clip_from_world.row(i).to_array().map(Vec4::splat);
         let half = [width, height].map(|size| size as f32 / 2.0);
-        // x / w errs by no more than twice what its parts do.
+        // The error of x / w is at most twice that of its parts.
         let too_near = 2.0 * CLIP_ERROR * reach * half[0] / ROUNDING;
         let near = clip_from_world.w_axis.z;
         Self {
@@ -113,7 +113,7 @@ impl Projection {
         }
     }
 
-    /// The lanes whose triangles may cover the centre of a pixel, lane 0 in the lowest bit.
+    /// The lanes whose triangles may cover the centre of a pixel, as bits: lane 0 is the lowest.
     fn covering(&self, lanes: &Lanes) -> u32 {
         let clip =
             |[x, y, z]: &[Vec4; 3]| self.rows.map(|[to_x, to_y, to_z, offset]| to_x * x + to_y * y + to_z * z + offset);
@@ -132,7 +132,7 @@ impl Projection {
         }
         // Corners in pixels, by axis; the centres of pixels are whole numbers.
         let at = [0, 1].map(|axis| corners.map(|p| p[axis] / p[2] * self.half[axis] + (self.half[axis] - 0.5)));
-        // First and last centre that the box round the triangle holds, and whether it holds two at most.
+        // First and last pixel centre in the bounding box of the triangle, and whether the box is at most two pixels wide.
         let span = |axis: usize| {
             let [a, b, c] = at[axis];
             let (low, high) = (a.min(b).min(c) - DISPLACEMENT, a.max(b).max(c) + DISPLACEMENT);
@@ -151,8 +151,8 @@ impl Projection {
     }
 }
 
-/// The triangles that may hold a point: if one holds it after its corners were displaced, the point lies no further than
-/// that from a point of the triangle as it is.
+/// The lanes whose triangles may contain a point: a triangle that contains it after its corners were displaced lies within
+/// that displacement of it.
 fn may_hold([x, y]: &[[Vec4; 3]; 2], [px, py]: [Vec4; 2]) -> BVec4A {
     let sides: [[Vec4; 2]; 3] = std::array::from_fn(|i| {
         let j = (i + 1) % 3;
@@ -170,7 +170,7 @@ mod tests {
     use crate::form_factor::Viewpoint;
     use crate::form_factor::hemicube::faces::{cell_rectangle, projections};
 
-    /// Random triangles round the origin, from larger than a face to smaller than its pixels.
+    /// A random triangle near the origin, between larger than a face and smaller than its pixels.
     fn triangle(seed: u32) -> [Vec3; 3] {
         let number = |i: u32| unit_float(hash(16 * seed + i));
         let random = |i: u32| Vec3::new(number(i), number(i + 1), number(i + 2)) * 2.0 - 1.0;
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn triangles_that_cover_a_pixel_are_drawn_and_few_of_the_others() {
+    fn triangles_that_cover_a_pixel_are_kept_and_most_others_culled() {
         let viewpoint = Viewpoint { position: Vec3::ZERO, normal: Vec3::new(0.6, 0.0, 0.8), seed: 3 };
         const NEAR: f32 = 1e-5;
         let (mut needless, mut empty) = (0, 0);

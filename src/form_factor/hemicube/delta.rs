@@ -1,10 +1,11 @@
-//! Delta form factors: the share of a hemicube pixel in the whole.
+//! Delta form factors: the share of the view that each pixel of a hemicube covers.
 //!
-//! Source: Cohen, Greenberg 1985, "The Hemi-Cube"; here integrated over the pixel in closed form, not taken at its centre.
+//! Source: Cohen, Greenberg 1985, "The Hemi-Cube"; here integrated over the pixel in closed form instead of evaluated at
+//! its centre.
 
 use std::f64::consts::PI;
 
-/// Delta form factors of a hemicube `n` pixels wide, laid out as its atlas cell: `n` columns and `3 n` rows, first the
+/// Delta form factors of a hemicube `n` pixels wide, in the layout of its atlas cell: `n` columns and `3 n` rows, first the
 /// top face, then the four half sides with the horizon at their bottom row. They sum to 1.
 #[must_use]
 pub fn delta_form_factors(n: u32) -> Vec<f32> {
@@ -28,7 +29,7 @@ pub fn delta_form_factors(n: u32) -> Vec<f32> {
     deltas.iter().map(|delta| (delta / sum) as f32).collect()
 }
 
-/// Difference of an antiderivative over a rectangle.
+/// Integral over a rectangle, from an antiderivative at its corners.
 fn rectangle(corner: fn(f64, f64) -> f64, x: [f64; 2], y: [f64; 2]) -> f64 {
     corner(x[1], y[1]) - corner(x[0], y[1]) - corner(x[1], y[0]) + corner(x[0], y[0])
 }
@@ -54,7 +55,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn deltas_sum_to_one() {
+    fn delta_form_factors_sum_to_one() {
         for n in [2, 16, 64, 512] {
             let sum: f64 = delta_form_factors(n).iter().map(|&d| f64::from(d)).sum();
             assert!((sum - 1.0).abs() < 1e-6, "n = {n}: {sum}");

@@ -1,24 +1,23 @@
-//! The five faces of a hemicube: their place in the atlas, their projections, and what each can see.
+//! The five faces of a hemicube: their projections and their rectangles in the atlas.
 
 use glam::{Mat4, Vec3, Vec4};
 
+use super::layout::Layout;
 use crate::base::sampling::{hash, tangent_frame, unit_float};
 use crate::form_factor::Viewpoint;
 
 /// Faces of a hemicube: the top and four half sides.
-pub const NUM_FACES: usize = 5;
+pub(super) const NUM_FACES: usize = 5;
 
 /// Width and height of face `face` and its first row within the atlas cell of a hemicube `n` pixels wide.
-#[must_use]
-pub fn cell_rectangle(face: usize, n: u32) -> (u32, u32, u32) {
+pub(super) fn cell_rectangle(face: usize, n: u32) -> (u32, u32, u32) {
     if face == 0 { (n, n, 0) } else { (n, n / 2, n + (face as u32 - 1) * n / 2) }
 }
 
 /// Clip-from-world matrices of the five faces: reversed depth, no far plane.
 ///
-/// The sides show only the half above the horizon: their projection is off centre, so that no pixel is wasted.
-#[must_use]
-pub fn projections(viewpoint: &Viewpoint, near: f32) -> [Mat4; NUM_FACES] {
+/// The sides show only the half above the horizon: their projection is off-centre, so no pixel is wasted.
+pub(super) fn projections(viewpoint: &Viewpoint, near: f32) -> [Mat4; NUM_FACES] {
     let normal = viewpoint.normal;
     let (tangent, bitangent) = tangent_frame(normal);
     let (sin, cos) = (unit_float(hash(viewpoint.seed)) * std::f32::consts::TAU).sin_cos();
@@ -41,6 +40,35 @@ fn projection(eye: Vec3, forward: Vec3, up: Vec3, is_half: bool, near: f32) -> M
     // y in 0..w becomes -w..w on the half faces.
     let to_y = if is_half { 2.0 * to_y - to_w } else { to_y };
     Mat4::from_cols(to_x, to_y, Vec4::new(0.0, 0.0, 0.0, near), to_w).transpose()
+}
+
+/// One face of one hemicube.
+pub(super) struct Face {
+    pub clip_from_world: Mat4,
+    pub eye: Vec3,
+    /// Left, top, width and height in the atlas, pixels.
+    pub rectangle: [u32; 4],
+}
+
+impl Face {
+    /// Width and height, pixels.
+    pub fn size(&self) -> (u32, u32) {
+        (self.rectangle[2], self.rectangle[3])
+    }
+}
+
+/// The faces of hemicubes that fill an atlas cell by cell.
+pub(super) fn faces_of(viewpoints: &[Viewpoint], layout: Layout, near: f32) -> Vec<Face> {
+    let of_cell = |(cell, viewpoint): (usize, &Viewpoint)| {
+        let (left, top) = layout.origin(cell);
+        let eye = viewpoint.position;
+        let face = move |(face, clip_from_world)| {
+            let (width, height, down) = cell_rectangle(face, layout.n);
+            Face { clip_from_world, eye, rectangle: [left, top + down, width, height] }
+        };
+        projections(viewpoint, near).into_iter().enumerate().map(face)
+    };
+    viewpoints.iter().enumerate().flat_map(of_cell).collect()
 }
 
 #[cfg(test)]

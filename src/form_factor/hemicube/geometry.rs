@@ -1,4 +1,4 @@
-//! The scene as the item buffer draws it: input triangles in chunks, bisection trees, cut-outs.
+//! The scene on the device as item buffers draw it: input triangles in chunks, bisection trees, cut-outs.
 
 use std::collections::HashMap;
 
@@ -21,7 +21,7 @@ pub(super) struct Geometry {
     pub cutouts: wgpu::Buffer,
     pub alphas: wgpu::Buffer,
     pub has_cutouts: bool,
-    /// What faces leave out; without it they draw everything.
+    /// What each face need not draw; `None` draws everything.
     pub culling: Option<Culling>,
     pub num_vertices: u32,
 }
@@ -42,7 +42,7 @@ impl Geometry {
         Self {
             vertices: buffer_for(wgpu::BufferUsages::VERTEX, "hemicube vertices", bytemuck::cast_slice(&vertices)),
             triangles: buffer("hemicube triangles", bytemuck::cast_slice(&triangles)),
-            // Empty bindings are not allowed: one node more than there are.
+            // wgpu allows no empty binding, hence one node more.
             tree: buffer("hemicube trees", bytemuck::cast_slice(&[mesh.tree.as_slice(), &[Node::default()]].concat())),
             cutouts: buffer("hemicube cut-outs", bytemuck::cast_slice(&cutouts.records)),
             alphas: buffer("hemicube alphas", &cutouts.alphas),
@@ -53,14 +53,14 @@ impl Geometry {
     }
 }
 
-/// The corners of a triangle, with what their fragments need to find an element.
+/// The corners of a triangle, with the ids from which a fragment derives its element.
 fn vertices_of(scene: &Scene, mesh: &PatchMesh, id: TriangleId) -> [gpu_data::Vertex; 3] {
     let root = mesh.roots[id.index()];
     let back_offset = if root.has_backs { root.num_elements } else { 0 };
     scene.corners(id).map(|p| gpu_data::Vertex { position: p.to_array(), root: root.node.bits(), back_offset })
 }
 
-/// How [`Geometry::vertices`] lie in memory.
+/// Memory layout of [`Geometry::vertices`].
 pub(super) const VERTEX_LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
     array_stride: size_of::<gpu_data::Vertex>() as u64,
     step_mode: wgpu::VertexStepMode::Vertex,
@@ -128,7 +128,7 @@ fn wrap_code(wrap: Wrap) -> u32 {
     }
 }
 
-/// Keep in step with `shaders/item_buffer.wgsl`.
+/// Keep in sync with `shaders/item_buffer.wgsl`.
 mod gpu_data {
     use super::{Pod, Zeroable};
 

@@ -1,4 +1,4 @@
-//! How many pixels hemicubes need to see patches.
+//! How many pixels a hemicube needs to resolve patches.
 //!
 //! Source: Baum, Rushmeier, Winget 1989, "Improving radiosity solutions through the use of analytically determined
 //! form-factors" (the aliasing assumption).
@@ -6,31 +6,31 @@
 use crate::patch::PatchMesh;
 use crate::scene::Scene;
 
-/// Pixels across a patch that faces the middle of a face.
+/// Pixels across a patch at the middle of a face.
 const PIXELS_A_PATCH: f32 = 1.5;
 
-/// Share of the area that may lie in patches smaller than those looked at.
-const SHARE_OF_SMALL_ONES: f32 = 0.1;
+/// Share of the area that may lie in patches too small to be resolved.
+const UNRESOLVED_SHARE: f32 = 0.1;
 
-/// The coarsest and the finest hemicubes that are worth their time.
+/// The smallest and the largest size that is chosen, pixels.
 const USUAL_SIZES: [u32; 2] = [32, 256];
 
-/// Width of hemicubes, pixels, in which patches half across the scene span a pixel and a half, whatever is smaller left
-/// aside: the nearest power of two.
+/// Width of hemicubes in pixels, a power of two, at which a typical patch half a scene away spans a pixel and a half.
 #[must_use]
 pub fn size_for_patches(scene: &Scene, mesh: &PatchMesh) -> u32 {
-    let distance = scene.bounds().diagonal() / 2.0;
-    // A face is two wide at distance one.
+    let (low, high) = scene.bounds();
+    let distance = low.distance(high) / 2.0;
+    // A face is 2 wide at distance 1.
     let pixels = 2.0 * PIXELS_A_PATCH * distance / typical_area(mesh).sqrt();
     let [fewest, most] = USUAL_SIZES;
     fewest << (pixels / fewest as f32).log2().round().clamp(0.0, (most / fewest).ilog2() as f32) as u32
 }
 
-/// The area of a patch that only a small share of all area lies in smaller ones of.
+/// The patch area below which only [`UNRESOLVED_SHARE`] of all area lies.
 fn typical_area(mesh: &PatchMesh) -> f32 {
     let mut areas: Vec<f32> = mesh.patches.iter().map(|patch| patch.area).collect();
     areas.sort_unstable_by(f32::total_cmp);
-    let small = SHARE_OF_SMALL_ONES * areas.iter().sum::<f32>();
+    let small = UNRESOLVED_SHARE * areas.iter().sum::<f32>();
     let mut sum = 0.0;
     let typical = areas.iter().find(|&&area| {
         sum += area;
@@ -51,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn small_patches_take_more_pixels() {
+    fn smaller_patches_need_more_pixels() {
         let scene = builtin::cornell();
         let sizes = [1.6, 0.4, 0.1].map(|patch_size| size(&scene, patch_size));
         assert_eq!(sizes, [32, 64, 128]);

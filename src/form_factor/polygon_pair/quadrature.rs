@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-/// Halvings of an interval at most.
+/// Most halvings of an interval.
 const MAX_DEPTH: u32 = 48;
 
-/// Positive nodes of the 15-point Kronrod rule, the largest first; every second one is Gauss's.
+/// Positive nodes of the 15-point Kronrod rule, the largest first; every second one is a node of the 7-point Gauss rule.
 const NODES: [f64; 8] = [
     0.991_455_371_120_812_6,
     0.949_107_912_342_758_5,
@@ -58,10 +58,10 @@ fn halve_until_exact(f: &dyn Fn(f64) -> f64, low: f64, high: f64, tolerance: f64
     halve_until_exact(f, low, middle, share, depth + 1) + halve_until_exact(f, middle, high, share, depth + 1)
 }
 
-/// Quarterings of a triangle at most.
+/// Most quarterings of a triangle.
 const MAX_QUARTERINGS: u32 = 9;
 
-/// Integral of `f` over a triangle, and how far it may be off.
+/// Integral of `f` over a triangle, and its error bound.
 ///
 /// Source: Radon 1948 (the seven-point rule of degree five).
 pub(super) fn integrate_triangle(f: &dyn Fn(DVec3) -> f64, corners: [DVec3; 3], tolerance: f64) -> (f64, f64) {
@@ -81,7 +81,7 @@ fn quarter_until_exact(
     let parts = quarters.map(|quarter| radon(f, quarter));
     let sum: f64 = parts.iter().sum();
     let error = (sum - whole).abs();
-    // The first levels may miss what is small.
+    // The first levels may miss small features.
     if (error <= tolerance && depth >= 3) || depth == MAX_QUARTERINGS {
         return (sum, error);
     }
@@ -109,13 +109,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_logarithm_is_integrated_to_its_singular_end() {
+    fn a_logarithm_is_integrated_up_to_its_singularity() {
         let exact = -1.0;
         assert!((integrate(&f64::ln, 1e-300, 1.0, 1e-12) - exact).abs() < 1e-10);
     }
 
     #[test]
-    fn a_polynomial_of_degree_five_is_exact_at_once() {
+    fn a_polynomial_of_degree_five_is_integrated_exactly() {
         let corners = [DVec3::ZERO, DVec3::X, DVec3::Y];
         // Integral of x^3 y^2 = 3! 2! / 7!.
         let found = radon(&|p| p.x.powi(3) * p.y.powi(2), corners);

@@ -1,18 +1,23 @@
-//! Closed forms without occlusion.
+//! Form factor from a point to a polygon in closed form, without occlusion: Lambert's contour integral.
 //!
-//! Source: Lambert 1760; Baum, Rushmeier, Winget 1989, section 4 (the contour sum as used for radiosity).
+//! By Stokes' theorem the integral of cos theta_x cos theta_y / (pi r^2) over a polygon becomes one along its outline, and
+//! each edge contributes the angle it subtends times the cosine between the normal and the plane through the edge and the
+//! point.
+//!
+//! Source: Lambert 1760, "Photometria"; Baum, Rushmeier, Winget 1989, section 4 (the contour sum as used for radiosity).
 
 use std::f32::consts::TAU;
 
 use glam::Vec3;
 
-/// Form factor from a small surface at `point` with unit `normal` to a polygon, no matter which way the polygon faces.
+/// Form factor from a differential area at `point` with unit `normal` to a polygon of at most seven corners, whichever way
+/// the polygon faces.
 ///
-/// The part of the polygon below the horizon is cut off.
+/// The part of the polygon below the horizon is clipped.
 ///
 /// Equation: F = 1 / (2 pi) x |sum over edges of angle_k x (normal . unit(a_k x b_k))|.
 ///
-/// Errors: about 1e-6 absolute, rounding only.
+/// Accuracy: about 1e-6 absolute, rounding only.
 #[must_use]
 pub fn point_to_polygon(point: Vec3, normal: Vec3, polygon: &[Vec3]) -> f32 {
     let mut sum = 0.0;
@@ -23,7 +28,7 @@ pub fn point_to_polygon(point: Vec3, normal: Vec3, polygon: &[Vec3]) -> f32 {
         let b = corners[(i + 1) % corners.len()];
         let cross = a.cross(b);
         let length = cross.length();
-        // Corners on one line of sight span no angle.
+        // Corners in the same direction subtend no angle.
         if length > 0.0 {
             sum += length.atan2(a.dot(b)) * normal.dot(cross) / length;
         }
@@ -31,9 +36,9 @@ pub fn point_to_polygon(point: Vec3, normal: Vec3, polygon: &[Vec3]) -> f32 {
     (sum.abs() / TAU).min(1.0)
 }
 
-/// The part of a polygon above the horizon, relative to the viewpoint.
+/// The part of a polygon above the horizon, relative to the point.
 ///
-/// Cutting a convex polygon of n corners by a plane leaves at most n + 1; triangles and quadrilaterals fit.
+/// Clipping a convex polygon of n corners by a plane leaves at most n + 1.
 #[derive(Default)]
 struct ClippedPolygon {
     corners: [Vec3; 8],
@@ -89,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_below_the_horizon_does_not_count() {
+    fn the_part_below_the_horizon_is_clipped() {
         let upright = [
             Vec3::new(1.0, -1.0, -1.0),
             Vec3::new(1.0, 1.0, -1.0),

@@ -6,7 +6,7 @@ use thiserror::Error;
 /// Distance from a plane that counts as on it, as a share of the polygon's size.
 const FLATNESS: f64 = 1e-6;
 
-/// A convex, planar polygon that faces the side from which its corners run counter-clockwise.
+/// A convex, planar polygon. Its front is the side from which its corners run counter-clockwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     corners: Vec<DVec3>,
@@ -14,13 +14,13 @@ pub struct Polygon {
     area: f64,
 }
 
-/// Corners that make no convex, planar polygon.
+/// The corners form no convex, planar polygon.
 #[derive(Clone, Copy, Debug, Error, PartialEq, Eq)]
 pub enum PolygonError {
     /// Fewer than three different corners.
     #[error("a polygon needs three different corners or more")]
     TooFewCorners,
-    /// A coordinate is infinite or no number.
+    /// A coordinate is infinite or NaN.
     #[error("a coordinate is not finite")]
     NotFinite,
     /// All corners lie on a line.
@@ -34,12 +34,12 @@ pub enum PolygonError {
     NotConvex,
 }
 
-/// A half space: points whose distance is not negative.
+/// A plane and the half space in front of it: the points whose signed distance is not negative.
 #[derive(Clone, Copy, Debug)]
 pub struct Plane {
     /// Unit normal towards the half space.
     pub normal: DVec3,
-    /// A point on the border.
+    /// A point on the plane.
     pub point: DVec3,
 }
 
@@ -52,10 +52,10 @@ impl Plane {
 }
 
 impl Polygon {
-    /// A polygon through `corners`.
+    /// A polygon with the given corners.
     ///
     /// # Errors
-    /// They make no convex, planar polygon.
+    /// Returns an error if the corners form no convex, planar polygon.
     pub fn new(mut corners: Vec<DVec3>) -> Result<Self, PolygonError> {
         if !corners.iter().all(|corner| corner.is_finite()) {
             return Err(PolygonError::NotFinite);
@@ -82,14 +82,14 @@ impl Polygon {
         Ok(polygon)
     }
 
-    /// Area and normal by Newell's sum.
+    /// Computes area and normal by Newell's sum.
     fn measured(corners: Vec<DVec3>) -> Self {
         let first = corners[0];
         let twice: DVec3 = corners.windows(2).map(|pair| (pair[0] - first).cross(pair[1] - first)).sum();
         Self { normal: twice.normalize_or_zero(), area: 0.5 * twice.length(), corners }
     }
 
-    /// Every turn is to the left, and all of them together are one turn.
+    /// True if every turn is to the left and the turns add up to one revolution.
     fn is_convex(&self) -> bool {
         let edges: Vec<DVec3> = self.edges().map(|(a, b)| (b - a).normalize()).collect();
         let mut whole = 0.0;
@@ -140,20 +140,20 @@ impl Polygon {
         self.corners.iter().map(|corner| corner.distance(centre)).fold(0.0, f64::max)
     }
 
-    /// The plane it lies in; the half space is in front of it.
+    /// The plane of the polygon, with the half space in front of it.
     #[must_use]
     pub fn plane(&self) -> Plane {
         Plane { normal: self.normal, point: self.corners[0] }
     }
 
-    /// Moved by `-centre`, then scaled.
+    /// The polygon translated by `-centre`, then scaled.
     #[must_use]
     pub fn rescaled(&self, centre: DVec3, scale: f64) -> Self {
         let corners = self.corners.iter().map(|&corner| (corner - centre) * scale).collect();
         Self { corners, normal: self.normal, area: self.area * scale * scale }
     }
 
-    /// The part within a half space; none where that has no area.
+    /// The part within a half space; `None` if it has no area.
     #[must_use]
     pub fn within(&self, plane: &Plane) -> Option<Self> {
         let rounding = 1e-12 * self.size();
@@ -188,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_polygon_is_refused() {
+    fn corners_that_form_no_polygon_are_refused() {
         let square = [[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]];
         assert_eq!(polygon(&square).map(|p| (p.area(), p.normal())), Ok((1.0, DVec3::Z)));
         assert_eq!(polygon(&square[..2]), Err(PolygonError::TooFewCorners));
@@ -201,7 +201,7 @@ mod tests {
     }
 
     #[test]
-    fn a_half_space_cuts_a_square_in_two() {
+    fn a_half_space_clips_a_square() {
         let square = polygon(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]).expect("a square");
         let cut = |x| square.within(&Plane { normal: DVec3::X, point: DVec3::X * x }).map(|part| part.area());
         assert_eq!(cut(0.25), Some(0.75));

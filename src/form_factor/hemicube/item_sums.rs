@@ -1,4 +1,4 @@
-//! From the items of one hemicube to its row of form factors.
+//! From the items of one hemicube to its row of form factors: sums of delta form factors.
 
 use crate::base::ids::ElementId;
 use crate::form_factor::{Entry, Row};
@@ -7,18 +7,18 @@ use crate::form_factor::{Entry, Row};
 const NOTHING: u32 = 0;
 /// Item of element 0.
 const FIRST_ELEMENT: u32 = 1;
-/// Of an item: the pixel sees the black back of a single-sided surface, whose front is the element.
+/// Flag of an item: the pixel sees the black back of a single-sided surface whose front is the element.
 const BLACK_BACK: u32 = 1 << 31;
 
-/// The element that a pixel sees; none where it sees nothing, or a black back.
-pub(super) fn element_seen(item: u32) -> Option<u32> {
+/// The element that a pixel sees; `None` if it sees nothing or a black back.
+pub(super) fn element_of(item: u32) -> Option<u32> {
     (item & BLACK_BACK == 0).then(|| item.checked_sub(FIRST_ELEMENT)).flatten()
 }
 
 /// Sums the delta form factors of each run of equal items.
 ///
-/// `items` yields the rows of pixels of the atlas cell, `deltas` is laid out alike. Runs keep their order, so the sum is
-/// the same on every machine; an element seen in several runs gets several entries.
+/// `items` yields the pixel rows of the atlas cell, `deltas` has the same layout. Runs keep their order, so the sum is the
+/// same on every machine; an element seen in several runs gets several entries.
 pub(super) fn sum_items<'a>(items: impl Iterator<Item = &'a [u32]>, deltas: &[f32], width: usize, row: &mut Row) {
     row.clear();
     for (line, weights) in items.zip(deltas.chunks_exact(width)) {
@@ -50,7 +50,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn runs_are_summed_and_the_row_is_complete() {
+    fn runs_of_equal_items_are_summed_and_the_row_is_complete() {
         let items = [[1, 1, 0, BLACK_BACK | 3], [2, 2, 2, 1]];
         let deltas = [0.125; 8];
         let mut row = Row::default();

@@ -1,28 +1,28 @@
-//! The bytes of a row cache: a header, and a record a row. Numbers are little-endian.
+//! The bytes of a row cache: a header, then one record per row. Numbers are little-endian.
 //!
 //! | record | bytes |
 //! |---|---|
-//! | name | 16 |
+//! | fingerprint | 16 |
 //! | number of entries and of backs | 4 and 4 |
 //! | sky share | 4 |
-//! | element and factor, an entry; then of the backs | 4 and 4 |
+//! | element and factor of each entry, then of each back | 4 and 4 |
 
 use std::io::{self, Read};
 
-use super::{Entry, Row};
 use crate::base::ids::ElementId;
+use crate::form_factor::{Entry, Row};
 
-/// How a file begins; the digit is that of the format.
+/// First bytes of a file; the digit is the version of the format.
 pub(super) const HEADER: &[u8; 16] = b"hemicube rows 2\n";
 
 /// Bytes of a record before its entries.
 const HEAD_BYTES: usize = 28;
 const ENTRY_BYTES: usize = 8;
 
-/// What comes before the entries of a record.
+/// The part of a record before its entries.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct RecordHead {
-    /// What the row depends on.
+    /// Fingerprint of the row's inputs.
     pub name: u128,
     num_entries: u32,
     num_backs: u32,
@@ -30,7 +30,7 @@ pub(super) struct RecordHead {
 }
 
 impl RecordHead {
-    /// The next head; none where fewer than the `num_left` bytes that are left would make a whole record.
+    /// Reads the next head; `None` if the `num_left` bytes that are left hold no whole record.
     pub(super) fn read(from: &mut impl Read, num_left: u64) -> io::Result<Option<Self>> {
         if num_left < HEAD_BYTES as u64 {
             return Ok(None);
@@ -48,7 +48,7 @@ impl RecordHead {
         Ok((head.num_bytes() <= num_left).then_some(head))
     }
 
-    /// Bytes of the entries, those of backs among them.
+    /// Bytes of the entries and the backs.
     pub(super) fn num_entry_bytes(&self) -> u64 {
         (u64::from(self.num_entries) + u64::from(self.num_backs)) * ENTRY_BYTES as u64
     }
@@ -59,7 +59,7 @@ impl RecordHead {
     }
 }
 
-/// The row whose entries follow a head.
+/// Reads the row whose head has been read.
 pub(super) fn read_row(from: &mut impl Read, head: &RecordHead) -> io::Result<Row> {
     let mut bytes = vec![0; head.num_entry_bytes() as usize];
     from.read_exact(&mut bytes)?;
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_record_is_read_as_it_was_written_and_not_where_it_is_cut_off() {
+    fn a_record_is_read_as_written_and_a_truncated_one_is_refused() {
         let entries = vec![Entry { element: ElementId(7), factor: 0.25 }, Entry { element: ElementId(9), factor: 0.5 }];
         let backs = vec![Entry { element: ElementId(3), factor: 0.125 }];
         let row = Row { entries, backs, sky: 0.125 };

@@ -1,7 +1,9 @@
-//! Form factor between two polygons by contour integrals: exact where nothing stands between.
+//! Form factor between two polygons by contour integrals: exact if nothing stands between.
 //!
-//! The double area integral becomes a double integral round both outlines. Along one edge it has a closed form; along the
-//! other it is integrated adaptively, from break point to break point, since its slope is infinite where edges touch.
+//! Stokes' theorem, applied twice, turns the double area integral of the form factor into a double integral along both
+//! outlines: F_AB = 1 / (2 pi A) x the contour integral over both boundaries of ln r dr_A . dr_B. Along one edge it has a
+//! closed form; along the other it is integrated adaptively, from break point to break point, because its slope is infinite
+//! at points where edges touch.
 //!
 //! Sources: Sparrow 1963, "A New and Simpler Formulation for Radiative Angle Factors"; Schröder, Hanrahan 1993, "On the
 //! Form Factor between Two Polygons"; Mazumder, Ravishankar 2012 (edges in common).
@@ -15,18 +17,18 @@ use super::quadrature::integrate;
 
 /// Form factor from the front of `a` to the front of `b`.
 ///
-/// What lies behind the plane of the other does not count.
+/// The parts behind the plane of the other polygon do not count.
 ///
 /// Equation: F = 1 / (2 pi A) x the sum over pairs of edges of the double integral of ln r along both, times the cosine
 /// between them.
 ///
-/// Errors: about 1e-8 absolute.
+/// Accuracy: about 1e-8 absolute.
 #[must_use]
 pub fn polygon_to_polygon(a: &Polygon, b: &Polygon) -> f64 {
     let (Some(seen_a), Some(seen_b)) = (a.within(&b.plane()), b.within(&a.plane())) else {
         return 0.0;
     };
-    // Units in which logarithms are small.
+    // Rescale to units in which logarithms are small.
     let unit = seen_a.size().max(seen_b.size());
     let centre = seen_a.centre();
     let (seen_a, seen_b) = (seen_a.rescaled(centre, 1.0 / unit), seen_b.rescaled(centre, 1.0 / unit));
@@ -48,7 +50,7 @@ fn edge_pair((a, a_end): (DVec3, DVec3), (b, b_end): (DVec3, DVec3), tolerance: 
     if cosine.abs() < 1e-15 {
         return 0.0;
     }
-    // Closest to the ends of the other edge, and to the line it lies on, the integrand bends.
+    // The integrand bends at the points closest to the ends of the other edge and to its line.
     let foot = |point: DVec3| along_a.dot(point - a);
     let across = 1.0 - cosine * cosine;
     let crossing = if across > 1e-12 { (foot(b) - cosine * along_b.dot(b - a)) / across } else { 0.0 };
@@ -58,8 +60,8 @@ fn edge_pair((a, a_end): (DVec3, DVec3), (b, b_end): (DVec3, DVec3), tolerance: 
     cosine * breaks.windows(2).map(|pair| integrate(&inner, pair[0], pair[1], tolerance)).sum::<f64>()
 }
 
-/// Integral of the logarithm of the distance between a point and an edge, along the edge; `offset` leads from the edge's
-/// start to the point.
+/// Integral along an edge of the logarithm of the distance to a point; `offset` is the vector from the edge's start to the
+/// point.
 fn log_distance(offset: DVec3, along: DVec3, length: f64) -> f64 {
     let foot = offset.dot(along);
     let height = (offset - foot * along).length();
@@ -91,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn what_faces_away_or_lies_behind_is_not_seen() {
+    fn polygons_that_face_away_or_lie_behind_have_no_form_factor() {
         let away = polygon(&[[0., 0., 1.], [1., 0., 1.], [1., 1., 1.], [0., 1., 1.]]);
         assert_eq!(polygon_to_polygon(&floor(), &away), 0.0);
         let below = polygon(&[[0., 1., -1.], [1., 1., -1.], [1., 0., -1.], [0., 0., -1.]]);
@@ -99,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn the_two_ways_are_in_the_measure_of_the_areas() {
+    fn form_factors_are_reciprocal() {
         let speck = polygon(&[[0.4, 0.5, 0.3], [0.4, 0.5001, 0.3], [0.4001, 0.5001, 0.3002]]);
         let (there, back) = (polygon_to_polygon(&floor(), &speck), polygon_to_polygon(&speck, &floor()));
         assert!((there * floor().area() / (back * speck.area()) - 1.0).abs() < 1e-6, "{there} {back}");

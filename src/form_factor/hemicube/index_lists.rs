@@ -1,21 +1,21 @@
-//! The triangles that faces draw, as lists of indices on the device.
+//! The triangles that each face draws, as index lists on the device.
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::atlas::Face;
 use super::culling::Culling;
+use super::faces::Face;
 use crate::gpu::Gpu;
 
-/// Indices drawn at once: what bounds the memory of lists, but for those of [`FACES_AT_ONCE`].
+/// Indices after which no further lists are made, which bounds their memory.
 const MAX_INDICES: usize = 1 << 22;
 
 /// Faces culled in parallel.
 const FACES_AT_ONCE: usize = 64;
 
-/// The lists of as many faces as fit, the first one at least.
-pub(super) fn lists_of(culling: &Culling, faces: &[Face]) -> Vec<Vec<u32>> {
+/// The index lists of as many faces as fit, at least of the first.
+pub(super) fn index_lists(culling: &Culling, faces: &[Face]) -> Vec<Vec<u32>> {
     let (mut lists, mut num_indices) = (Vec::with_capacity(faces.len()), 0);
     for some in faces.chunks(FACES_AT_ONCE) {
         if num_indices > MAX_INDICES {
@@ -29,17 +29,17 @@ pub(super) fn lists_of(culling: &Culling, faces: &[Face]) -> Vec<Vec<u32>> {
     lists
 }
 
-/// An index buffer that grows with what is written.
-pub(super) struct Indices {
+/// An index buffer that grows with its contents.
+pub(super) struct IndexBuffer {
     pub buffer: wgpu::Buffer,
 }
 
-impl Indices {
+impl IndexBuffer {
     pub(super) fn new(gpu: &Gpu) -> Self {
         Self { buffer: new_buffer(gpu, 4096) }
     }
 
-    /// Writes the lists one behind the other; returns where each lies.
+    /// Writes the lists one after the other; returns the range of each.
     pub(super) fn write(&mut self, gpu: &Gpu, lists: &[Vec<u32>]) -> Vec<Range<u32>> {
         let num_indices: usize = lists.iter().map(Vec::len).sum();
         let num_bytes = (num_indices * size_of::<u32>()) as u64;

@@ -1,0 +1,29 @@
+//! Where the hemicubes of a submission lie in an atlas.
+
+/// Pixels across an atlas; a multiple of every hemicube size and of the copy alignment.
+pub(super) const ATLAS_WIDTH: u32 = 512;
+/// Pixels down an atlas: one hemicube of the largest size, 64 of the usual one.
+pub(super) const ATLAS_HEIGHT: u32 = 1536;
+
+/// The grid of cells of hemicubes `n` pixels wide; a cell is n wide and 3 n high: the top face, then four half sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Layout {
+    pub n: u32,
+}
+
+impl Layout {
+    pub(super) fn columns(self) -> u32 {
+        ATLAS_WIDTH / self.n
+    }
+
+    /// Hemicubes a submission.
+    pub(super) fn capacity(self) -> usize {
+        (self.columns() * (ATLAS_HEIGHT / (3 * self.n))) as usize
+    }
+
+    /// Top left pixel of a cell.
+    pub(super) fn origin(self, cell: usize) -> (u32, u32) {
+        let cell = cell as u32;
+        (cell % self.columns() * self.n, cell / self.columns() * 3 * self.n)
+    }
+}
