@@ -9,7 +9,7 @@ use hemicube::form_factor::hemicube::Hemicubes;
 use hemicube::form_factor::{FormFactorSource, Viewpoint};
 use hemicube::gpu::Gpu;
 use hemicube::patch::{MeshSettings, PatchMesh};
-use hemicube::radiosity::sites::Sites;
+use hemicube::radiosity::Viewpoints;
 use hemicube::scene::{Scene, builtin, gltf};
 
 /// Hemicubes timed a run.
@@ -41,7 +41,7 @@ struct Rates {
 
 fn time(gpu: &Gpu, scene: &Scene, element_size: f32, size_px: u32) -> anyhow::Result<Rates> {
     let mesh = PatchMesh::new(scene, &MeshSettings { element_size, patch_size: 4.0 * element_size })?;
-    let sites = Sites::new(scene).of_light_vertices(&mesh);
+    let sites = Viewpoints::new(scene).at_light_vertices(&mesh);
     let viewpoints: Vec<Viewpoint> = sites.iter().copied().cycle().take(COUNT).collect();
     let mut hemicubes = Hemicubes::new(gpu, scene, &mesh, size_px);
     let mut best = Rates { full: 0.0, draw: 0.0 };

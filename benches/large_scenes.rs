@@ -15,7 +15,7 @@ use hemicube::form_factor::hemicube::Hemicubes;
 use hemicube::form_factor::{FormFactorSource, Viewpoint};
 use hemicube::gpu::Gpu;
 use hemicube::patch::PatchMesh;
-use hemicube::radiosity::sites::Sites;
+use hemicube::radiosity::Viewpoints;
 use hemicube::scene::{Instance, Light, Material, Scene, Triangle, Vertex, gltf};
 
 /// Hemicubes timed a run, and their width.
@@ -51,7 +51,7 @@ fn tell_rates(scene: &Scene) -> anyhow::Result<()> {
     println!("{}: {} triangles, {SIZE_PX} px, {}", scene.name, scene.triangles.len(), gpu.name());
     let (triangles, shooters) = (scene.triangles.len(), mesh.patches.len());
     println!("  shooters {shooters}, {:.3} of the triangles", shooters as f64 / triangles as f64);
-    let sites = Sites::new(scene).of_light_vertices(&mesh);
+    let sites = Viewpoints::new(scene).at_light_vertices(&mesh);
     let viewpoints: Vec<Viewpoint> = sites.iter().step_by((sites.len() / COUNT).max(1)).take(COUNT).copied().collect();
     let culled = rate(Hemicubes::new(&gpu, scene, &mesh, SIZE_PX), &viewpoints)?;
     let whole = rate(Hemicubes::new(&gpu, scene, &mesh, SIZE_PX).without_culling(), &viewpoints)?;

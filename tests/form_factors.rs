@@ -1,4 +1,4 @@
-//! Rows of form factors over random rooms: what must hold for any method, and that the methods agree.
+//! Rows of form factors in random rooms: properties of every method, and agreement between methods.
 
 use glam::Vec3;
 use hemicube::form_factor::hemicube::{Hemicubes, size_for_patches};
@@ -6,24 +6,24 @@ use hemicube::form_factor::hemisphere::Hemispheres;
 use hemicube::form_factor::polygon_pair::{Polygon, PolygonPair};
 use hemicube::form_factor::{Entry, FormFactorSource, Row, Viewpoint, map_rows};
 use hemicube::patch::{MeshSettings, PatchMesh};
-use hemicube::radiosity::sites::Sites;
+use hemicube::radiosity::Viewpoints;
 use hemicube::scene::{Scene, SceneBuilder, builtin};
 use hemicube::trace::Tracer;
 
 use crate::support::device::gpu;
 use crate::support::scenes::{self, glowing, with_groups};
 
-/// A room, cut, and a viewpoint on each of its patches.
+/// A room, its mesh, and a viewpoint on each of its patches.
 fn room(seed: u32) -> (Scene, PatchMesh, Vec<Viewpoint>) {
     let scene = scenes::cluttered_room(seed);
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.5, patch_size: 1.0 }).unwrap();
-    let sites = Sites::new(&scene);
-    let viewpoints = mesh.patches.iter().flat_map(|patch| sites.of_patch(&mesh, patch, 1)).collect();
+    let placement = Viewpoints::new(&scene);
+    let viewpoints = mesh.patches.iter().flat_map(|patch| placement.on_patch(&mesh, patch, 1)).collect();
     (scene, mesh, viewpoints)
 }
 
-fn rows(method: &mut dyn FormFactorSource, viewpoints: &[Viewpoint]) -> Vec<Row> {
-    map_rows(method, viewpoints, &|| true, |_, row| row.clone()).unwrap()
+fn rows(source: &mut dyn FormFactorSource, viewpoints: &[Viewpoint]) -> Vec<Row> {
+    map_rows(source, viewpoints, &|| true, |_, row| row.clone()).unwrap()
 }
 
 /// Share of the view that each input triangle fills.
@@ -35,8 +35,8 @@ fn by_triangle(entries: &[Entry], mesh: &PatchMesh) -> Vec<f32> {
     shares
 }
 
-/// In a closed room each row is non-negative and whole, and what is not seen of elements is backs, never sky.
-fn assert_whole(rows: &[Row]) {
+/// In a closed room the factors of each row are positive and sum to 1 with those of backs, and no share is sky.
+fn assert_complete(rows: &[Row]) {
     for row in rows {
         let sum: f32 = row.entries.iter().map(|entry| entry.factor).sum();
         assert!(row.entries.iter().all(|entry| entry.factor > 0.0));
@@ -46,13 +46,13 @@ fn assert_whole(rows: &[Row]) {
 }
 
 #[test]
-fn rows_of_both_methods_are_whole_in_closed_rooms() {
+fn rows_of_both_methods_sum_to_one_in_closed_rooms() {
     for seed in 0..4 {
         let (scene, mesh, viewpoints) = room(seed);
         let tracer = Tracer::new(&scene);
-        assert_whole(&rows(&mut Hemispheres::new(&tracer, &mesh, 256), &viewpoints));
+        assert_complete(&rows(&mut Hemispheres::new(&tracer, &mesh, 256), &viewpoints));
         if let Some(gpu) = gpu() {
-            assert_whole(&rows(&mut Hemicubes::new(gpu, &scene, &mesh, 64), &viewpoints));
+            assert_complete(&rows(&mut Hemicubes::new(gpu, &scene, &mesh, 64), &viewpoints));
         }
     }
 }
@@ -75,27 +75,27 @@ fn hemispheres_and_hemicubes_agree() {
         assert_agree(&rays.entries, &pixels.entries);
         assert_agree(&rays.backs, &pixels.backs);
     }
-    assert!(by_rays.iter().any(|row| row.back() > 0.1), "some places see backs");
+    assert!(by_rays.iter().any(|row| row.back() > 0.1), "some viewpoints see backs");
 }
 
 #[test]
-fn what_hemicubes_leave_out_is_never_seen() {
+fn culled_triangles_are_never_visible() {
     let Some(gpu) = gpu() else { return };
     for (scene, size_px) in
         [(scenes::cluttered_room(5), 16), (builtin::gallery(), 64), (scenes::cluttered_room(6), 256)]
     {
         let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.5, patch_size: 2.0 }).unwrap();
-        let sites = Sites::new(&scene).of_light_vertices(&mesh);
+        let viewpoints = Viewpoints::new(&scene).at_light_vertices(&mesh);
         let mut culled = Hemicubes::new(gpu, &scene, &mesh, size_px);
         let mut whole = Hemicubes::new(gpu, &scene, &mesh, size_px).without_culling();
-        for viewpoint in sites.iter().step_by(sites.len() / 12) {
+        for viewpoint in viewpoints.iter().step_by(viewpoints.len() / 12) {
             let (some, all) = (culled.elements_seen(viewpoint).unwrap(), whole.elements_seen(viewpoint).unwrap());
             assert!(some == all, "{size_px} px: {viewpoint:?}");
         }
     }
 }
 
-/// Mean over the viewpoints of what two methods tell differently of the patches, as a share of the whole view.
+/// Mean over the viewpoints of the share of the view that two methods assign to different patches.
 fn disagreement(one: &[Row], other: &[Row], mesh: &PatchMesh) -> f32 {
     let by_patch = |row: &Row| {
         let mut shares = vec![0.0; mesh.patches.len()];
@@ -111,28 +111,28 @@ fn disagreement(one: &[Row], other: &[Row], mesh: &PatchMesh) -> f32 {
 }
 
 #[test]
-fn hemicubes_as_fine_as_patches_ask_for_see_them_well() {
+fn the_chosen_hemicube_size_resolves_the_patches() {
     let Some(gpu) = gpu() else { return };
     for (seed, patch_size) in [(1, 0.5), (2, 1.0), (3, 2.0)] {
         let scene = scenes::cluttered_room(seed);
         let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: patch_size / 4.0, patch_size }).unwrap();
-        let sites = Sites::new(&scene).of_light_vertices(&mesh);
-        let viewpoints: Vec<Viewpoint> = sites.iter().step_by(sites.len() / 40).copied().collect();
+        let all = Viewpoints::new(&scene).at_light_vertices(&mesh);
+        let viewpoints: Vec<Viewpoint> = all.iter().step_by(all.len() / 40).copied().collect();
         let rows_at = |size_px| rows(&mut Hemicubes::new(gpu, &scene, &mesh, size_px), &viewpoints);
         let (size_px, fine) = (size_for_patches(&scene, &mesh), rows_at(512));
         let error = disagreement(&rows_at(size_px), &fine, &mesh);
         assert!(error < 0.08, "{size_px} px, patches of {patch_size} m: {error}");
         if patch_size < 1.0 {
             let error = disagreement(&rows_at(size_px / 2), &fine, &mesh);
-            assert!(error > 0.08, "{} px would do: {error}", size_px / 2);
+            assert!(error > 0.08, "{} px would be enough: {error}", size_px / 2);
         }
     }
 }
 
 /// Form factors `[i][j]` between patches, by `num_rays` rays from each of `num_points` points a patch.
 fn between_patches(scene: &Scene, mesh: &PatchMesh, num_points: usize, num_rays: u32) -> Vec<Vec<f64>> {
-    let sites = Sites::new(scene);
-    let of_patch = |patch| sites.of_patch(mesh, patch, num_points);
+    let placement = Viewpoints::new(scene);
+    let of_patch = |patch| placement.on_patch(mesh, patch, num_points);
     let viewpoints: Vec<Viewpoint> = mesh.patches.iter().flat_map(of_patch).collect();
     let tracer = Tracer::new(scene);
     let mut factors = vec![vec![0.0; mesh.patches.len()]; mesh.patches.len()];
@@ -146,7 +146,7 @@ fn between_patches(scene: &Scene, mesh: &PatchMesh, num_points: usize, num_rays:
 }
 
 #[test]
-fn patches_see_each_other_in_the_measure_of_their_areas() {
+fn form_factors_between_patches_are_reciprocal() {
     const NUM_POINTS: usize = 16;
     const NUM_RAYS: u32 = 256;
     let (scene, mesh, _) = room(3);
@@ -167,7 +167,7 @@ fn patches_see_each_other_in_the_measure_of_their_areas() {
 }
 
 #[test]
-fn a_half_transparent_pane_takes_half_of_the_view() {
+fn a_half_transparent_surface_fills_half_of_the_view() {
     let mut builder = SceneBuilder::default();
     let pane = builder.material(glowing(Vec3::splat(0.5), Vec3::ONE));
     let quad = |z: f32| [(-9.0, -9.0), (-9.0, 9.0), (9.0, 9.0), (9.0, -9.0)].map(|(x, y)| Vec3::new(x, y, z));
@@ -187,7 +187,7 @@ fn polygon(corners: &[[f64; 3]]) -> Polygon {
     Polygon::new(corners.iter().map(|&corner| corner.into()).collect()).unwrap()
 }
 
-/// A unit square that faces up, and what it exchanges light with; the last number is the published form factor.
+/// Pairs of a unit square that faces up and another polygon, with their published form factors.
 fn published_pairs() -> Vec<(PolygonPair, f64)> {
     let floor = || polygon(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
     let ceiling = |z: f64| polygon(&[[0., 1., z], [1., 1., z], [1., 0., z], [0., 0., z]]);
@@ -199,8 +199,7 @@ fn published_pairs() -> Vec<(PolygonPair, f64)> {
     ]
 }
 
-/// A small square between two large ones takes away what it sees of both: no closed form is as simple, but the methods have
-/// no step in common.
+/// A small square blocks the view between two large ones. No simple closed form is known, but the methods share no step.
 fn blocked_pair() -> PolygonPair {
     let square = |size: f64, z: f64| polygon(&[[-size, -size, z], [size, -size, z], [size, size, z], [-size, size, z]]);
     let ceiling = polygon(&[[-1., 1., 1.], [1., 1., 1.], [1., -1., 1.], [-1., -1., 1.]]);
@@ -208,7 +207,7 @@ fn blocked_pair() -> PolygonPair {
 }
 
 #[test]
-fn three_methods_find_the_published_form_factors() {
+fn three_methods_compute_the_published_form_factors() {
     for (pair, exact) in published_pairs() {
         let analytic = pair.analytic().factor;
         assert!((analytic - exact).abs() < 1e-6, "{analytic} {exact}");

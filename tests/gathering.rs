@@ -1,4 +1,4 @@
-//! What sites borrow from each other.
+//! The final gather interpolates between records only where they see the same surroundings.
 
 use glam::Vec3;
 use hemicube::base::progress::Unwatched;
@@ -6,7 +6,7 @@ use hemicube::form_factor::hemisphere::Hemispheres;
 use hemicube::form_factor::{Viewpoint, map_rows};
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::Field;
-use hemicube::radiosity::gather::{GatherSettings, Gatherer};
+use hemicube::radiosity::gather::{FinalGather, FinalGatherSettings};
 use hemicube::scene::{Scene, SceneBuilder};
 use hemicube::trace::Tracer;
 
@@ -25,32 +25,33 @@ fn room_with_a_sheet() -> Scene {
     with_groups(builder.build(), 1)
 }
 
-/// Sites all over the wall and, where it hides it, the sheet.
-fn sites() -> Vec<Viewpoint> {
-    let places = (1..60).flat_map(|i| (1..80).map(move |k| (0.05 * i as f32, 0.05 * k as f32)));
-    let site = |(seed, (y, z))| {
+/// Viewpoints all over the wall, and on the sheet where it hides the wall.
+fn viewpoints() -> Vec<Viewpoint> {
+    let positions = (1..60).flat_map(|i| (1..80).map(move |k| (0.05 * i as f32, 0.05 * k as f32)));
+    let viewpoint = |(seed, (y, z))| {
         let is_hidden = (0.4..2.4).contains(&y) && (0.8..3.2).contains(&z);
         let x = if is_hidden { SHEET } else { WALL };
         Viewpoint { position: Vec3::new(x - 1e-4, y, z), normal: Vec3::NEG_X, seed }
     };
-    (0..).zip(places).map(site).collect()
+    (0..).zip(positions).map(viewpoint).collect()
 }
 
-/// All that reflects light reflects 1, and the back of the sheet nothing: irradiance is 1 less the share of backs.
+/// All surfaces reflect 1 and the back of the sheet nothing, so the exact irradiance is 1 less the share of backs in view.
 #[test]
-fn no_site_borrows_from_one_that_a_sheet_hides() {
+fn no_viewpoint_interpolates_records_behind_a_sheet() {
     let scene = room_with_a_sheet();
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.25, patch_size: 0.5 }).unwrap();
     let radiosity = Field::from_values(1, vec![Vec3::ONE; mesh.elements.len()]);
     let tracer = Tracer::new(&scene);
-    let mut method = Hemispheres::new(&tracer, &mesh, 512);
-    let settings = GatherSettings { tolerance: 0.1, max_radius: 1.0, noise: f32::INFINITY, contact_reach: 0.1 };
-    let sites = sites();
-    let gathered = Gatherer::new(&mesh, &radiosity, settings).at(&mut method, &sites, &Unwatched).unwrap();
-    let alone = map_rows(&mut method, &sites, &|| true, |_, row| 1.0 - row.back()).unwrap();
-    let errors = gathered.indirect.values().iter().zip(&alone).map(|(light, alone)| (light.x - alone).abs());
-    let (on_sheet, on_wall): (Vec<_>, Vec<_>) = errors.zip(&sites).partition(|(_, site)| site.position.x < SHEET);
+    let mut source = Hemispheres::new(&tracer, &mesh, 512);
+    let settings = FinalGatherSettings { tolerance: 0.1, max_radius: 1.0, noise: f32::INFINITY, near_field_reach: 0.1 };
+    let viewpoints = viewpoints();
+    let gathered = FinalGather::new(&mesh, &radiosity, settings).at(&mut source, &viewpoints, &Unwatched).unwrap();
+    let exact = map_rows(&mut source, &viewpoints, &|| true, |_, row| 1.0 - row.back()).unwrap();
+    let errors = gathered.indirect.values().iter().zip(&exact).map(|(light, exact)| (light.x - exact).abs());
+    let (on_sheet, on_wall): (Vec<_>, Vec<_>) =
+        errors.zip(&viewpoints).partition(|(_, viewpoint)| viewpoint.position.x < SHEET);
     let worst = |errors: &[(f32, &Viewpoint)]| errors.iter().map(|(error, _)| *error).fold(0.0, f32::max);
-    assert!(worst(&on_sheet) < 0.01, "{} on the sheet, which sees no back", worst(&on_sheet));
+    assert!(worst(&on_sheet) < 0.01, "{} on the sheet, which sees no backs", worst(&on_sheet));
     assert!(worst(&on_wall) < 0.1, "{} on the wall", worst(&on_wall));
 }

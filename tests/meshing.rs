@@ -7,7 +7,7 @@ use hemicube::base::ids::TriangleId;
 use hemicube::base::sampling::{r2, triangle_from_square};
 use hemicube::base::triangle::interpolate;
 use hemicube::patch::{MeshSettings, PatchMesh, Splits};
-use hemicube::radiosity::sites::Sites;
+use hemicube::radiosity::Viewpoints;
 use hemicube::scene::normal_of;
 
 use crate::support::scenes;
@@ -101,7 +101,7 @@ fn sites_stand_above_their_elements_though_shading_normals_lean() {
         vertex.normal = (vertex.normal + 0.2 * vertex.normal.any_orthonormal_vector()).normalize();
     }
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.3, patch_size: 0.5 }).unwrap();
-    let sites = Sites::new(&scene).of_light_vertices(&mesh);
+    let sites = Viewpoints::new(&scene).at_light_vertices(&mesh);
     for element in &mesh.elements {
         let normal = normal_of(mesh.corners(element));
         for l in mesh.light_vertices_of(element) {

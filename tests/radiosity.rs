@@ -9,7 +9,7 @@ use hemicube::form_factor::{Entry, Row};
 use hemicube::gpu::Gpu;
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::Field;
-use hemicube::radiosity::contacts::Contacts;
+use hemicube::radiosity::gather::NearField;
 use hemicube::scene::{Light, SceneBuilder, builtin};
 
 use crate::support::device::gpu;
@@ -162,7 +162,7 @@ fn each_gathering_pass_brings_the_light_of_one_more_reflection() {
 }
 
 #[test]
-fn what_is_close_reflects_the_light_of_its_vertices_and_what_is_far_that_of_its_patch() {
+fn near_elements_reflect_the_light_of_their_vertices_and_far_ones_that_of_their_patch() {
     let scene = scenes::furnace(Vec3::splat(0.5), Vec3::ONE);
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.3, patch_size: 0.5 }).unwrap();
     let radiosity = Field::from_values(1, vec![Vec3::ONE; mesh.elements.len()]);
@@ -179,19 +179,19 @@ fn what_is_close_reflects_the_light_of_its_vertices_and_what_is_far_that_of_its_
         entries: vec![Entry { element: ElementId::new(element), factor: 1.0 }],
         ..Row::default()
     };
-    let mut contacts = Contacts::new(&mesh, &radiosity, reach);
-    let (close, nearest) = contacts.of(&row(above.expect("the ceiling")), place);
+    let mut near_field = NearField::new(&mesh, &radiosity, reach);
+    let (near, nearest) = near_field.near_elements(&row(above.expect("the ceiling")), place);
     assert!((nearest - height).abs() < 1e-6, "{nearest}");
-    let corrected = |contacts: &Contacts<'_>| {
+    let corrected = |near_field: &NearField<'_>| {
         let mut irradiance = [Vec3::ONE];
-        contacts.correct(&close, place, &mut irradiance);
+        near_field.correct(&near, place, &mut irradiance);
         irradiance[0].x
     };
-    assert_eq!(corrected(&contacts), 1.0);
-    contacts.learn(&received, &nothing, &vec![true; mesh.light_vertices.len()]);
+    assert_eq!(corrected(&near_field), 1.0);
+    near_field.set_vertex_light(&received, &nothing, &vec![true; mesh.light_vertices.len()]);
     let expected = 1.0 + (1.0 - height / reach);
-    assert!((corrected(&contacts) - expected).abs() < 1e-5, "{} for {expected}", corrected(&contacts));
-    // The floor is farther than contacts reach.
+    assert!((corrected(&near_field) - expected).abs() < 1e-5, "{} for {expected}", corrected(&near_field));
+    // The floor is beyond the reach of the near field.
     let floor = mesh.elements.iter().position(|element| mesh.corners(element).iter().all(|p| p.y == 0.0));
-    assert!(contacts.of(&row(floor.expect("the floor")), place).0.is_empty());
+    assert!(near_field.near_elements(&row(floor.expect("the floor")), place).0.is_empty());
 }

@@ -6,7 +6,7 @@ use crate::baked::VertexLight;
 use crate::base::colour::luminance;
 use crate::base::ids::PatchId;
 use crate::patch::PatchMesh;
-use crate::radiosity::rows::{PatchRow, RowStore};
+use crate::radiosity::solver::{PatchRow, RowStore};
 use crate::scene::Scene;
 
 /// Share of a patch's view that ends on surfaces that receive: 1 everywhere in a closed room.
@@ -101,7 +101,7 @@ mod tests {
     use crate::base::progress::Unwatched;
     use crate::form_factor::hemisphere::Hemispheres;
     use crate::patch::MeshSettings;
-    use crate::radiosity::sites::Sites;
+    use crate::radiosity::Viewpoints;
     use crate::scene::builtin;
     use crate::trace::Tracer;
 
@@ -113,7 +113,7 @@ mod tests {
         let mut rows = RowStore::new(mesh.patches.len(), 32, usize::MAX);
         let all: Vec<PatchId> = (0..mesh.patches.len()).map(PatchId::new).collect();
         let mut method = Hemispheres::new(&tracer, &mesh, 512);
-        rows.find(&all, &mesh, &Sites::new(&scene), &mut method, &Unwatched).expect("rays do not fail");
+        rows.compute(&all, &mesh, &Viewpoints::new(&scene), &mut method, &Unwatched).expect("rays do not fail");
         let closure = Closure::of(&mesh, &rows);
         assert!(closure.min < closure.mean && closure.mean < 0.99 && closure.max <= 1.0 + 1e-4, "{closure:?}");
         let residual = reciprocity_residual(&mesh, &rows);

@@ -6,8 +6,8 @@ use super::refinement::Lighting;
 use crate::form_factor::Viewpoint;
 use crate::patch::PatchMesh;
 use crate::radiosity::Field;
-use crate::radiosity::adaptive::Cut;
-use crate::radiosity::gather::{Gathered, Gatherer};
+use crate::radiosity::adaptive_subdivision::AdaptiveSubdivision;
+use crate::radiosity::gather::{FinalGather, GatheredLight};
 
 /// Vertices with their light.
 pub(super) struct LitVertices {
@@ -16,7 +16,7 @@ pub(super) struct LitVertices {
     /// Direct light `[l][g]`.
     pub direct: Field,
     /// Indirect light `[l][g]`, as far as it was found.
-    pub gathered: Gathered,
+    pub gathered: GatheredLight,
     /// Viewpoints that were gathered from.
     pub num_hemicubes: usize,
     /// Share of backs that they saw.
@@ -26,7 +26,7 @@ pub(super) struct LitVertices {
 impl LitVertices {
     /// Only direct light is known.
     pub(super) fn without_indirect(direct: Field) -> Self {
-        let gathered = Gathered::nothing(direct.num_places(), direct.num_groups());
+        let gathered = GatheredLight::unknown(direct.num_places(), direct.num_groups());
         Self { refined: None, direct, gathered, num_hemicubes: 0, backface_share: 0.0 }
     }
 }
@@ -36,20 +36,20 @@ impl Lighting<'_> {
     pub(super) fn gather(
         &self,
         seer: Seer<'_>,
-        cut: &mut Cut<'_>,
+        cut: &mut AdaptiveSubdivision<'_>,
         mesh: &PatchMesh,
         places: &[Viewpoint],
         direct: Field,
         radiosity: &Field,
     ) -> Result<LitVertices, BakeError> {
         let mut method = seer.gathering(self.settings);
-        let mut gatherer = Gatherer::new(mesh, radiosity, self.gather);
+        let mut gatherer = FinalGather::new(mesh, radiosity, self.gather);
         let mut gathered = gatherer.at(&mut *method, places, self.watch)?;
         let mut refined = None;
         if !self.watch.is_cancelled() {
             // A pass that was asked for reflects what the one before found, and no more.
             if self.settings.passes.is_none() {
-                gatherer.settle_contacts(places, &direct, &mut gathered);
+                gatherer.correct_near_field(places, &direct, &mut gathered);
             }
             refined = self.refine_by_all(cut, mesh, (&direct, &gathered), &mut gatherer, &mut *method)?;
         }

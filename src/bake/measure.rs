@@ -10,8 +10,8 @@ use crate::baked::BakedScene;
 use crate::base::progress::Progress;
 use crate::form_factor::Viewpoint;
 use crate::patch::PatchMesh;
+use crate::radiosity::Viewpoints;
 use crate::radiosity::direct::DirectLight;
-use crate::radiosity::sites::Sites;
 use crate::raytrace::{GatherPrecision, MeasuringPoint, gathered_irradiance, stored_irradiance};
 use crate::scene::Scene;
 use crate::trace::Tracer;
@@ -59,9 +59,9 @@ pub fn measure(
     settings: &MeasureSettings,
     progress: &dyn Progress,
 ) -> Option<Vec<Measured>> {
-    let sites = Sites::new(scene);
+    let sites = Viewpoints::new(scene);
     let viewpoint = |(seed, point): (usize, &MeasuringPoint)| -> Viewpoint {
-        sites.viewpoint(point.position, point.normal.normalize_or_zero(), seed as u32)
+        sites.above(point.position, point.normal.normalize_or_zero(), seed as u32)
     };
     let viewpoints: Vec<Viewpoint> = points.iter().enumerate().map(viewpoint).collect();
     let tracer = Tracer::new(scene);

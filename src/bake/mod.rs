@@ -21,14 +21,14 @@ use crate::form_factor::row_cache::RowCache;
 use crate::gpu::Gpu;
 use crate::patch::{MeshError, PatchMesh};
 use crate::radiosity::Field;
-use crate::radiosity::adaptive::Cut;
+use crate::radiosity::Viewpoints;
+use crate::radiosity::adaptive_subdivision::AdaptiveSubdivision;
 use crate::radiosity::direct::DirectLight;
-use crate::radiosity::element_light::direct_on_elements;
-use crate::radiosity::full_matrix::MatrixTooLarge;
-use crate::radiosity::gather::Gathered;
-use crate::radiosity::progressive::Solution;
-use crate::radiosity::reconstruct::{average, dark_scene, fill_hidden, vertex_light};
-use crate::radiosity::sites::Sites;
+use crate::radiosity::direct::direct_on_elements;
+use crate::radiosity::gather::GatheredLight;
+use crate::radiosity::reconstruction::{average, dark_scene, fill_hidden, vertex_light};
+use crate::radiosity::solver::Solution;
+use crate::radiosity::solver::full_matrix::MatrixTooLarge;
 use crate::scene::Scene;
 use crate::trace::Tracer;
 
@@ -104,27 +104,27 @@ pub fn bake_with_rows(
     let method = settings.method.unwrap_or_else(|| Method::fastest(gpu));
     let mut clock = Clock::start();
 
-    // Cut the scene into elements and patches.
+    // AdaptiveSubdivision the scene into elements and patches.
     watch.report(Stage::Mesh, 0.0);
     let sizes = settings.mesh_settings(scene);
-    let (mut cut, mesh) = Cut::new(scene, sizes)?;
+    let (mut cut, mesh) = AdaptiveSubdivision::new(scene, sizes)?;
     let predicted = Forecast::of_mesh(scene, &mesh, settings, method).bytes as u64;
     log::info!("{} elements; about {} MiB of memory", mesh.elements.len(), predicted >> 20);
     watch.mesh(&dark_scene(scene, &mesh));
     clock.lap(Stage::Mesh);
 
     // Direct light at the vertices, to be shown, with more of them where it changes, and on the elements, to be sent on.
-    let sites = Sites::new(scene);
+    let sites = Viewpoints::new(scene);
     let tracer = Tracer::new(scene);
     let lights = DirectLight::new(scene, &mesh, &tracer, settings.num_penumbra_rays);
     let lighting = Lighting::new(scene, &sizes, settings, &lights, &tracer, watch);
-    let places = sites.of_light_vertices(&mesh);
+    let places = sites.at_light_vertices(&mesh);
     let (mesh, direct) = lighting.refine_by_direct(&mut cut, mesh, &places)?;
     if !watch.is_cancelled() {
         watch.mesh(&lit_mesh(scene, &mesh, &direct, &Field::zero(direct.num_places(), direct.num_groups())));
     }
     let few_rays = lights.with_rays(PENUMBRA_RAYS_ON_ELEMENTS);
-    let on_elements = direct_on_elements(&mesh, &sites, &few_rays, &tracer, settings.points_an_element, watch);
+    let on_elements = direct_on_elements(&mesh, &sites, &few_rays, settings.points_an_element, watch);
     clock.lap(Stage::Direct);
 
     // Carry on what the elements reflect, from patch to patch.
@@ -139,7 +139,7 @@ pub fn bake_with_rows(
     clock.lap(Stage::Solve);
 
     // Collect the indirect light at the vertices, with more of them where it changes.
-    let places = sites.of_light_vertices(&mesh);
+    let places = sites.at_light_vertices(&mesh);
     let lit = match radiosity {
         Some(radiosity) => lighting.gather(seer, &mut cut, &mesh, &places, direct, &radiosity)?,
         None => LitVertices::without_indirect(direct),
@@ -218,7 +218,7 @@ fn estimate(mesh: &PatchMesh, solution: &Solution) -> Field {
 }
 
 /// The gathered light, completed by the estimate where gathering was cut short.
-fn completed(gathered: &Gathered, estimate: impl Fn() -> Field) -> Field {
+fn completed(gathered: &GatheredLight, estimate: impl Fn() -> Field) -> Field {
     if gathered.is_known.iter().all(|known| *known) {
         return gathered.indirect.clone();
     }

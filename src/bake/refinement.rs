@@ -6,10 +6,10 @@ use crate::base::colour::luminance;
 use crate::form_factor::{FormFactorSource, Viewpoint};
 use crate::patch::{MeshSettings, PatchMesh};
 use crate::radiosity::Field;
-use crate::radiosity::adaptive::{Cut, Lit, RefineSettings};
+use crate::radiosity::adaptive_subdivision::{AdaptiveSubdivision, SampledLight, SubdivisionSettings};
 use crate::radiosity::direct::DirectLight;
-use crate::radiosity::element_light::is_inside;
-use crate::radiosity::gather::{GatherSettings, Gathered, Gatherer};
+use crate::radiosity::direct::is_inside_solid;
+use crate::radiosity::gather::{FinalGather, FinalGatherSettings, GatheredLight};
 use crate::scene::Scene;
 use crate::trace::Tracer;
 
@@ -21,9 +21,9 @@ pub(super) struct Lighting<'a> {
     lights: &'a DirectLight<'a>,
     tracer: &'a Tracer<'a>,
     pub settings: &'a BakeSettings,
-    refine: RefineSettings,
-    sharpen: RefineSettings,
-    pub gather: GatherSettings,
+    refine: SubdivisionSettings,
+    sharpen: SubdivisionSettings,
+    pub gather: FinalGatherSettings,
     pub watch: &'a dyn Watch,
 }
 
@@ -45,7 +45,7 @@ impl<'a> Lighting<'a> {
     /// Refines a mesh until direct light is linear along its edges; returns it with the direct light `[l][g]`.
     pub(super) fn refine_by_direct(
         &self,
-        cut: &mut Cut<'_>,
+        cut: &mut AdaptiveSubdivision<'_>,
         mesh: PatchMesh,
         places: &[Viewpoint],
     ) -> Result<(PatchMesh, Field), BakeError> {
@@ -54,7 +54,7 @@ impl<'a> Lighting<'a> {
             return Ok((mesh, lit.light));
         }
         let floor = FLOOR * mean_luminance(&lit.light);
-        let mut evaluate = |places: &[Viewpoint]| -> Result<Lit, BakeError> { Ok(self.direct(places)) };
+        let mut evaluate = |places: &[Viewpoint]| -> Result<SampledLight, BakeError> { Ok(self.direct(places)) };
         let (mesh, lit) = cut.refine(mesh, lit, &self.refine, floor, &mut evaluate)?;
         Ok((mesh, lit.light))
     }
@@ -63,26 +63,26 @@ impl<'a> Lighting<'a> {
     /// not wanted, or no longer.
     pub(super) fn refine_by_all(
         &self,
-        cut: &mut Cut<'_>,
+        cut: &mut AdaptiveSubdivision<'_>,
         mesh: &PatchMesh,
-        (direct, gathered): (&Field, &Gathered),
-        gatherer: &mut Gatherer<'_>,
+        (direct, gathered): (&Field, &GatheredLight),
+        gatherer: &mut FinalGather<'_>,
         method: &mut dyn FormFactorSource,
-    ) -> Result<Option<(PatchMesh, Field, Gathered)>, BakeError> {
+    ) -> Result<Option<(PatchMesh, Field, GatheredLight)>, BakeError> {
         if !self.is_wanted() {
             return Ok(None);
         }
         let num_groups = direct.num_groups();
-        let is_known = |gathered: &Gathered, l: usize| gathered.is_valid[l] && gathered.is_known[l];
-        let join = |direct: &Field, gathered: &Gathered| {
+        let is_known = |gathered: &GatheredLight, l: usize| gathered.is_valid[l] && gathered.is_known[l];
+        let join = |direct: &Field, gathered: &GatheredLight| {
             let columns = |l: usize| direct.at(l).iter().chain(gathered.indirect.at(l)).copied();
             let places = 0..gathered.is_valid.len();
             let light = Field::from_values(2 * num_groups, places.clone().flat_map(columns).collect());
-            Lit { light, is_open: places.map(|l| is_known(gathered, l)).collect() }
+            SampledLight { light, is_open: places.map(|l| is_known(gathered, l)).collect() }
         };
         let lit = join(direct, gathered);
         let floor = FLOOR * mean_luminance(&lit.light);
-        let mut evaluate = |places: &[Viewpoint]| -> Result<Lit, BakeError> {
+        let mut evaluate = |places: &[Viewpoint]| -> Result<SampledLight, BakeError> {
             let direct = self.lights.irradiance(places, self.watch);
             let mut lit = join(&direct, &gatherer.at(method, places, self.watch)?);
             if self.watch.is_cancelled() {
@@ -101,7 +101,7 @@ impl<'a> Lighting<'a> {
             Field::from_values(num_groups, (0..lit.is_open.len()).flat_map(columns).collect())
         };
         let (direct, indirect, is_known) = (part(0), part(num_groups), vec![true; lit.is_open.len()]);
-        Ok(Some((mesh, direct, Gathered { indirect, is_valid: lit.is_open, is_known })))
+        Ok(Some((mesh, direct, GatheredLight { indirect, is_valid: lit.is_open, is_known })))
     }
 
     fn is_wanted(&self) -> bool {
@@ -109,14 +109,14 @@ impl<'a> Lighting<'a> {
     }
 
     /// Direct light; where it is dark, whether the place lies inside something.
-    fn direct(&self, places: &[Viewpoint]) -> Lit {
+    fn direct(&self, places: &[Viewpoint]) -> SampledLight {
         let light = self.lights.irradiance(places, self.watch);
         // Places that were not reached when cancelled are dark for no reason.
         let is_cancelled = self.watch.is_cancelled();
         let is_open =
-            |l: usize| !is_cancelled && (luminance(light.total(l)) > 0.0 || !is_inside(self.tracer, &places[l]));
+            |l: usize| !is_cancelled && (luminance(light.total(l)) > 0.0 || !is_inside_solid(self.tracer, &places[l]));
         let is_open = (0..places.len()).map(is_open).collect();
-        Lit { light, is_open }
+        SampledLight { light, is_open }
     }
 }
 

@@ -7,7 +7,7 @@ use super::certificate::Closure;
 use super::settings::{Method, Quality, Solver};
 use super::watch::Seconds;
 use crate::base::colour::LUMINANCE;
-use crate::radiosity::progressive::Energy;
+use crate::radiosity::solver::Energy;
 
 /// Counts, balances and times of a bake.
 #[derive(Clone, Debug, Serialize)]
@@ -54,7 +54,7 @@ pub struct Report {
     pub largest_neighbour_step: f32,
     /// Share of back faces that the gathering sites saw.
     pub backface_share: f32,
-    /// Sites found inside or behind something.
+    /// Viewpoints found inside or behind something.
     pub hidden_vertices: usize,
     /// By stage.
     pub seconds: Seconds,

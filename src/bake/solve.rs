@@ -11,11 +11,12 @@ use crate::base::progress::Stage;
 use crate::form_factor::FormFactorSource;
 use crate::patch::PatchMesh;
 use crate::radiosity::Field;
-use crate::radiosity::full_matrix;
-use crate::radiosity::gathering::{gather_pass, mean_over_patches, polish, reflected_radiosity};
-use crate::radiosity::progressive::{Energy, Progressive, Solution};
-use crate::radiosity::rows::RowStore;
-use crate::radiosity::sites::Sites;
+use crate::radiosity::Viewpoints;
+use crate::radiosity::solver::RowStore;
+use crate::radiosity::solver::full_matrix;
+use crate::radiosity::solver::jacobi::{gather_pass, iterate_until_converged, mean_over_patches, reflected_radiosity};
+use crate::radiosity::solver::progressive::Progressive;
+use crate::radiosity::solver::{Energy, Solution};
 
 /// Patches whose rows are found between two looks at the watch.
 const PATCHES_A_BATCH: usize = 64;
@@ -40,7 +41,7 @@ pub(super) struct Solved {
 /// What a solver works on.
 pub(super) struct Task<'a> {
     pub mesh: &'a PatchMesh,
-    pub sites: Sites,
+    pub sites: Viewpoints,
     pub seer: Seer<'a>,
     pub settings: &'a BakeSettings,
     pub watch: &'a dyn Watch,
@@ -74,7 +75,7 @@ impl Task<'_> {
         let num_passes = solution.num_shots.div_ceil(self.mesh.patches.len());
         let radiosity = (!self.watch.is_cancelled()).then(|| {
             let start = mean_over_patches(self.mesh, &solution.indirect);
-            let on_patches = polish(self.mesh, &solution.direct, &rows, start);
+            let on_patches = iterate_until_converged(self.mesh, &solution.direct, &rows, start);
             reflected_radiosity(self.mesh, &solution.direct, &on_patches)
         });
         Ok(Solved { solution, rows, radiosity, num_passes, unshot_share, form_factor_seconds })
@@ -123,7 +124,7 @@ impl Task<'_> {
         let mut rows = RowStore::new(self.mesh.patches.len(), self.settings.points_a_patch, usize::MAX);
         let patches: Vec<PatchId> = (0..self.mesh.patches.len()).map(PatchId::new).collect();
         for (batch, patches) in patches.chunks(PATCHES_A_BATCH).enumerate() {
-            if !rows.find(patches, self.mesh, &self.sites, &mut *method, self.watch)? {
+            if !rows.compute(patches, self.mesh, &self.sites, &mut *method, self.watch)? {
                 break;
             }
             self.watch.report(Stage::Solve, (batch * PATCHES_A_BATCH) as f32 / self.mesh.patches.len() as f32);

@@ -1,8 +1,8 @@
-//! A colour for every place and light group.
+//! A colour per place and light group.
 
 use glam::Vec3;
 
-/// Values `[place][group]`, the groups of one place side by side.
+/// Values `[place][group]`, stored place by place. Places are patches, elements, light vertices or viewpoints.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Field {
     num_groups: usize,
@@ -45,7 +45,7 @@ impl Field {
         &mut self.values[place * self.num_groups..(place + 1) * self.num_groups]
     }
 
-    /// Sum over the groups at a place.
+    /// The sum over the groups at a place.
     #[must_use]
     pub fn total(&self, place: usize) -> Vec3 {
         self.at(place).iter().sum()

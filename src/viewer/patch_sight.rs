@@ -9,7 +9,7 @@ use crate::base::sampling::{hash, unit_float};
 use crate::form_factor::hemisphere::Hemispheres;
 use crate::form_factor::{Row, map_rows};
 use crate::gpu::Gpu;
-use crate::radiosity::sites::Sites;
+use crate::radiosity::Viewpoints;
 use crate::raytrace::MeasuringPoint;
 use crate::render::{RenderSettings, tone_map_on_cpu};
 use crate::trace::Tracer;
@@ -47,7 +47,7 @@ impl PatchSight {
         settings: &RenderSettings,
         progress: &dyn Progress,
     ) -> anyhow::Result<Option<Self>> {
-        let viewpoint = Sites::new(&solved.scene).viewpoint(point.position, point.normal, 0);
+        let viewpoint = Viewpoints::new(&solved.scene).above(point.position, point.normal, 0);
         let tracer = Tracer::new(&solved.scene);
         let mut method = Hemispheres::new(&tracer, &solved.mesh, NUM_RAYS);
         let go_on = || !progress.is_cancelled();

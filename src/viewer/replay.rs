@@ -12,10 +12,10 @@ use crate::base::ids::PatchId;
 use crate::base::progress::Progress;
 use crate::form_factor::hemisphere::Hemispheres;
 use crate::patch::PatchMesh;
-use crate::radiosity::Field;
-use crate::radiosity::progressive::{Progressive, ProgressiveSettings, Solution};
-use crate::radiosity::reconstruct::average;
-use crate::radiosity::sites::Sites;
+use crate::radiosity::reconstruction::average;
+use crate::radiosity::solver::Solution;
+use crate::radiosity::solver::progressive::{Progressive, ProgressiveSettings};
+use crate::radiosity::{Field, Viewpoints};
 use crate::trace::Tracer;
 
 /// Share of the light at which the recording ends.
@@ -76,7 +76,7 @@ impl Recording {
             patches_a_batch: 1,
             row_bytes: ROW_BYTES,
         };
-        let mut solver = Progressive::new(mesh, Sites::new(&solved.scene), direct, settings);
+        let mut solver = Progressive::new(mesh, Viewpoints::new(&solved.scene), direct, settings);
         let max_moments = max_moments(mesh, solved.baked.light.groups.len());
         let mut moments = vec![Moment::of(mesh, solver.solution(), None, solver.unshot_share())];
         let mut next = 1;

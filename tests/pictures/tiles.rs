@@ -6,7 +6,7 @@ use glam::Vec3;
 use hemicube::baked::BakedScene;
 use hemicube::gpu::Gpu;
 use hemicube::patch::{MeshSettings, PatchMesh};
-use hemicube::radiosity::reconstruct::dark_scene;
+use hemicube::radiosity::reconstruction::dark_scene;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{
     Exposure, RenderSettings, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, View, picture_in_light,

@@ -2,9 +2,9 @@
 
 use super::{Method, Quality, Solver};
 use crate::patch::MeshSettings;
-use crate::radiosity::adaptive::RefineSettings;
-use crate::radiosity::gather::GatherSettings;
-use crate::radiosity::progressive::ProgressiveSettings;
+use crate::radiosity::adaptive_subdivision::SubdivisionSettings;
+use crate::radiosity::gather::FinalGatherSettings;
+use crate::radiosity::solver::progressive::ProgressiveSettings;
 use crate::scene::Scene;
 
 /// How a scene is baked.
@@ -151,9 +151,9 @@ impl BakeSettings {
     }
 
     /// How elements follow direct light before it is reflected.
-    pub(in crate::bake) fn refine(&self, scene: &Scene, sizes: &MeshSettings) -> RefineSettings {
+    pub(in crate::bake) fn refine(&self, scene: &Scene, sizes: &MeshSettings) -> SubdivisionSettings {
         let min_edge = self.min_edge * sizes.element_size;
-        RefineSettings {
+        SubdivisionSettings {
             max_error: self.refine_error,
             short_edge: 2.0 * min_edge,
             min_edge,
@@ -162,16 +162,16 @@ impl BakeSettings {
     }
 
     /// How they follow all light in the end, given how they followed direct light.
-    pub(in crate::bake) fn sharpen(&self, refine: RefineSettings, sizes: &MeshSettings) -> RefineSettings {
-        RefineSettings { min_edge: self.sharp_edge * sizes.element_size, ..refine }
+    pub(in crate::bake) fn sharpen(&self, refine: SubdivisionSettings, sizes: &MeshSettings) -> SubdivisionSettings {
+        SubdivisionSettings { min_edge: self.sharp_edge * sizes.element_size, ..refine }
     }
 
-    pub(in crate::bake) fn gather(&self, sizes: &MeshSettings) -> GatherSettings {
-        GatherSettings {
+    pub(in crate::bake) fn gather(&self, sizes: &MeshSettings) -> FinalGatherSettings {
+        FinalGatherSettings {
             tolerance: self.cache_tolerance,
             noise: self.noise,
             max_radius: BORROW_REACH * sizes.element_size,
-            contact_reach: sizes.patch_size,
+            near_field_reach: sizes.patch_size,
         }
     }
 

@@ -67,9 +67,9 @@ mod tests {
 
     #[test]
     fn every_value_is_found_by_its_name() {
-        Quality::ALL.map(|value| assert_eq!(value.name().parse(), Ok(value)));
-        Method::ALL.map(|value| assert_eq!(value.name().parse(), Ok(value)));
-        Solver::ALL.map(|value| assert_eq!(value.name().parse(), Ok(value)));
+        assert!(Quality::ALL.into_iter().all(|value| value.name().parse() == Ok(value)));
+        assert!(Method::ALL.into_iter().all(|value| value.name().parse() == Ok(value)));
+        assert!(Solver::ALL.into_iter().all(|value| value.name().parse() == Ok(value)));
     }
 
     #[test]

@@ -11,7 +11,7 @@ use crate::bake::patch_view::patch_view;
 use crate::base::sampling::{hash, unit_float};
 use crate::cli::terminal::Terminal;
 use crate::gpu::Gpu;
-use crate::radiosity::sites::Sites;
+use crate::radiosity::Viewpoints;
 use crate::raytrace::MeasuringPoint;
 use crate::render::picture::save_display;
 use crate::render::tone_map_on_cpu;
@@ -28,7 +28,7 @@ pub fn write_patch_view(scene: Scene, at: &MeasuringPoint, args: &RenderArgs, te
     let gpu = Gpu::headless()?;
     let baked = raster_light(&gpu, scene, args, terminal)?;
     // A fixed seed gives the same picture each time.
-    let viewpoint = Sites::new(&baked.scene).viewpoint(at.position, at.normal, 0);
+    let viewpoint = Viewpoints::new(&baked.scene).above(at.position, at.normal, 0);
     let view = patch_view(&gpu, &baked, &viewpoint, SIZE_PX)?;
     tone_map_on_cpu(view.size, view.radiance, &render_settings(args, &baked)).save(&args.output)?;
     let colours: Vec<Vec3> = view.items.iter().map(|item| item.map_or(Vec3::ZERO, item_colour)).collect();

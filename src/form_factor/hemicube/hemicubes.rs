@@ -43,9 +43,8 @@ impl<'a> Hemicubes<'a> {
         let pipeline = pipeline(gpu, &bindings_layout, geometry.has_cutouts);
         let layout = Layout { n };
         let atlases = (0..NUM_ATLASES).map(|_| Atlas::new(gpu, &bindings_layout, &geometry, layout)).collect();
-        let (low, high) = scene.bounds();
         // Reversed depth has the relative precision of a float, so the near plane can be close enough for surfaces in contact.
-        let near = (high - low).max_element() * 1e-6;
+        let near = scene.bounds().extent() * 1e-6;
         Self { gpu, geometry, pipeline, atlases, layout, deltas: delta_form_factors(n), near }
     }
 

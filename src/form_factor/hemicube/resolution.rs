@@ -18,8 +18,7 @@ const USUAL_SIZES: [u32; 2] = [32, 256];
 /// Width of hemicubes in pixels, a power of two, at which a typical patch half a scene away spans a pixel and a half.
 #[must_use]
 pub fn size_for_patches(scene: &Scene, mesh: &PatchMesh) -> u32 {
-    let (low, high) = scene.bounds();
-    let distance = low.distance(high) / 2.0;
+    let distance = scene.bounds().diagonal() / 2.0;
     // A face is 2 wide at distance 1.
     let pixels = 2.0 * PIXELS_A_PATCH * distance / typical_area(mesh).sqrt();
     let [fewest, most] = USUAL_SIZES;

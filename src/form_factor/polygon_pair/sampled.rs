@@ -1,6 +1,6 @@
 //! The form factor of a pair by sampling: rays or hemicubes from points of the smaller polygon.
 
-use glam::{Vec2, Vec3, Vec4};
+use glam::Vec3;
 
 use super::pair::{Estimate, PolygonPair};
 use super::polygon::Polygon;
@@ -73,7 +73,7 @@ impl PairScene {
         let centre = viewer.centre();
         let reach = seen.corners().iter().chain(viewer.corners()).map(|p| p.distance(centre)).fold(0.0, f64::max);
         let rescaled = |polygon: &Polygon| polygon.rescaled(centre, 1.0 / reach);
-        let material = Material { metallic: 0.0, ..Material::default() };
+        let material = Material::diffuse(Vec3::ONE);
         let mut scene = Scene {
             materials: vec![material.clone(), Material { double_sided: true, ..material }],
             ..Scene::default()
@@ -83,8 +83,7 @@ impl PairScene {
         if let Some(blocker) = &pair.blocker {
             add(&mut scene, &rescaled(blocker), 1);
         }
-        let uncut = MeshSettings { element_size: f32::INFINITY, patch_size: f32::INFINITY };
-        let mesh = PatchMesh::new(&scene, &uncut).expect("a few triangles fit in memory");
+        let mesh = PatchMesh::new(&scene, &MeshSettings::uncut()).expect("a few triangles fit in memory");
         Self { scene, mesh, viewer: rescaled(viewer), num_seen, ratio }
     }
 
@@ -127,7 +126,7 @@ fn add(scene: &mut Scene, polygon: &Polygon, material: u32) {
     let first = scene.vertices.len() as u32;
     let start = scene.triangles.len();
     let normal = polygon.normal().as_vec3();
-    let vertex = |position: Vec3| Vertex { position, normal, uv: [Vec2::ZERO; 2], colour: Vec4::ONE };
+    let vertex = |position: Vec3| Vertex::new(position, normal);
     scene.vertices.extend(polygon.corners().iter().map(|corner| vertex(corner.as_vec3())));
     scene.triangles.extend((1..polygon.corners().len() as u32 - 1).map(|k| Triangle {
         vertices: [first, first + k, first + k + 1],

@@ -1,4 +1,4 @@
-//! From light at light vertices or elements to light on the mesh that is drawn.
+//! Reconstruction: from irradiance at light vertices or elements to the mesh that is drawn.
 
 use glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::baked::{BakedScene, GroupLight, VertexLight};
 use crate::patch::PatchMesh;
 use crate::scene::{Instance, Scene, Triangle};
 
-/// The elements of `mesh` as a scene, still dark.
+/// The elements of `mesh` as a scene without light.
 #[must_use]
 pub fn dark_scene(scene: &Scene, mesh: &PatchMesh) -> BakedScene {
     let triangles: Vec<Triangle> = mesh
@@ -19,7 +19,7 @@ pub fn dark_scene(scene: &Scene, mesh: &PatchMesh) -> BakedScene {
             ..scene.triangles[element.triangle.index()]
         })
         .collect();
-    // Elements follow their input triangles, so an instance's elements lie side by side too.
+    // Elements are in the order of their input triangles, so an instance's elements are one range too.
     let first_element = |t: usize| mesh.roots.get(t).map_or(triangles.len(), |root| root.first_element as usize);
     let instances = scene
         .instances
@@ -59,7 +59,7 @@ pub fn vertex_light(mesh: &PatchMesh, direct: &Field, indirect: &Field) -> Verte
     VertexLight { groups }
 }
 
-/// Mean over the elements round each light vertex, weighted by area.
+/// The mean over the elements around each light vertex `[l][g]`, weighted by area.
 #[must_use]
 pub fn average(mesh: &PatchMesh, on_elements: &Field) -> Field {
     let num_groups = on_elements.num_groups();
@@ -81,9 +81,10 @@ pub fn average(mesh: &PatchMesh, on_elements: &Field) -> Field {
     sums
 }
 
-/// Gives light vertices inside or behind something the mean of their valid neighbours along the mesh.
+/// Replaces the light of vertices inside or behind a solid by the mean of their valid neighbours along the mesh, so that no
+/// darkness is interpolated into the open.
 ///
-/// Those that have none are never seen and stay as they are.
+/// Vertices without a valid neighbour stay unchanged: the elements around them are hidden.
 pub fn fill_hidden(mesh: &PatchMesh, is_valid: &[bool], fields: [&mut Field; 2]) {
     let [direct, indirect] = fields;
     let num_groups = direct.num_groups();
@@ -95,7 +96,7 @@ pub fn fill_hidden(mesh: &PatchMesh, is_valid: &[bool], fields: [&mut Field; 2])
     }
 }
 
-/// Sum of known neighbours: direct of all groups, then indirect of all groups.
+/// The sum over valid neighbours: direct light of all groups, then indirect light of all groups.
 struct NeighbourSums {
     values: Vec<Vec3>,
     count: f32,

@@ -1,30 +1,30 @@
-//! Gathering on the patches, pass after pass: the k-th pass brings the light of the k-th reflection.
+//! Jacobi iteration: gathering pass after pass. Every patch gathers from the values of the previous pass:
 //!
-//! Each pass every patch collects what all others reflect. From the dark that is the classic series of pictures; from the
-//! answer of progressive refinement it is the cure for the proximity error of shooting: a shooter is one or a few points,
-//! and an element close to it receives too much or too little, whereas the same row seen from the receiver is exact in its
-//! neighbourhood and sums to one in a closed room.
+//! I_p <- sum over elements e of F_pe rho_e (D_e + I of e's patch)
 //!
-//! Source: Goral, Torrance, Greenberg, Battaile 1984 (the system); Baum, Rushmeier, Winget 1989 (why shooting errs).
+//! Started from I = 0, the k-th pass adds the light of the k-th reflection: the Neumann series of the radiosity equation,
+//! and the classic series of pictures. Started from the result of progressive refinement, it removes the proximity error of
+//! shooting: a shooter is sampled at one or a few points, so an element close to it receives too much or too little,
+//! whereas a row of the receiver is exact in its neighbourhood and sums to 1 in a closed room.
+//!
+//! Source: Goral, Torrance, Greenberg, Battaile 1984 (the system); Baum, Rushmeier, Winget 1989 (the proximity assumption).
 
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::field::Field;
-use super::rows::RowStore;
+use super::row_store::RowStore;
 use crate::base::ids::PatchId;
 use crate::patch::PatchMesh;
+use crate::radiosity::field::Field;
 
-/// Largest relative change of a patch's irradiance at which the system counts as solved.
+/// Largest relative change of a patch's irradiance in a pass at which the system counts as solved.
 const TOLERANCE: f32 = 1e-4;
 
-/// The slowest room (reflectance 0.99) loses 1 % a pass.
+/// Most passes: the slowest room, of reflectance 0.99, loses 1 % of its error per pass.
 const MAX_PASSES: usize = 1000;
 
-/// One pass: indirect irradiance `[p][g]` becomes what the patches gather from it and from the direct light on elements;
-/// patches whose row is not kept stay as they are. Returns the largest change, relative to the brightest patch.
-///
-/// Equation: I_p = sum over elements of F_pe rho_e (D_e + I of e's patch).
+/// One pass: replaces indirect irradiance `[p][g]` by what the patches gather from it and from direct irradiance `[e][g]`.
+/// Patches whose row is not kept stay unchanged. Returns the largest change, relative to the brightest patch.
 pub fn gather_pass(mesh: &PatchMesh, direct: &Field, rows: &RowStore, on_patches: &mut Field) -> f32 {
     let radiosity = reflected_radiosity(mesh, direct, on_patches);
     let next: Vec<Option<Vec<Vec3>>> = (0..mesh.patches.len())
@@ -51,9 +51,9 @@ pub fn gather_pass(mesh: &PatchMesh, direct: &Field, rows: &RowStore, on_patches
     change / brightest
 }
 
-/// Gathers until the system B = E + rho F B holds for the rows as they are, beginning with `on_patches` `[p][g]`.
+/// Gathers until the radiosity equation holds for the kept rows, starting from `on_patches` `[p][g]`.
 #[must_use]
-pub fn polish(mesh: &PatchMesh, direct: &Field, rows: &RowStore, mut on_patches: Field) -> Field {
+pub fn iterate_until_converged(mesh: &PatchMesh, direct: &Field, rows: &RowStore, mut on_patches: Field) -> Field {
     for _ in 0..MAX_PASSES {
         if gather_pass(mesh, direct, rows, &mut on_patches) <= TOLERANCE {
             break;
@@ -62,8 +62,10 @@ pub fn polish(mesh: &PatchMesh, direct: &Field, rows: &RowStore, mut on_patches:
     on_patches
 }
 
-/// Reflected radiosity `[e][g]` from direct irradiance on elements and indirect irradiance on patches. Emission is left out:
-/// it is direct light.
+/// Reflected radiosity `[e][g]` from direct irradiance on elements and indirect irradiance on patches, without emission,
+/// whose light is direct.
+///
+/// Equation: rho_e (D_e + I of e's patch).
 #[must_use]
 pub fn reflected_radiosity(mesh: &PatchMesh, direct: &Field, indirect_on_patches: &Field) -> Field {
     let mut radiosity = Field::zero(mesh.elements.len(), direct.num_groups());
@@ -76,7 +78,7 @@ pub fn reflected_radiosity(mesh: &PatchMesh, direct: &Field, indirect_on_patches
     radiosity
 }
 
-/// Mean over each patch of a field on elements, weighted by area.
+/// The mean over each patch `[p][g]` of a field on elements, weighted by area.
 #[must_use]
 pub fn mean_over_patches(mesh: &PatchMesh, on_elements: &Field) -> Field {
     let mut mean = Field::zero(mesh.patches.len(), on_elements.num_groups());

@@ -1,7 +1,8 @@
-//! The full matrix: all form factors between patches at once, solved by Gauss-Seidel iteration.
+//! The full matrix: all form factors between patches, solved by Gauss-Seidel iteration.
 //!
-//! The oldest way and the plainest: for small scenes, and to check the others. The matrix is as large as the square of the
-//! number of patches.
+//! The original radiosity method, for small scenes and as a reference for the other solvers. Memory and time grow with the
+//! square of the number of patches. A sweep updates one unknown after the other from the newest values of all others, which
+//! converges at least as fast as Jacobi iteration.
 //!
 //! Source: Goral, Torrance, Greenberg, Battaile 1984; Cohen, Greenberg 1985.
 
@@ -9,10 +10,10 @@ use glam::Vec3;
 use rayon::prelude::*;
 use thiserror::Error;
 
-use super::field::Field;
-use super::rows::RowStore;
+use super::row_store::RowStore;
 use crate::base::ids::PatchId;
 use crate::patch::PatchMesh;
+use crate::radiosity::field::Field;
 
 /// Most bytes of a matrix.
 const MAX_BYTES: usize = 1 << 30;
@@ -20,26 +21,26 @@ const MAX_BYTES: usize = 1 << 30;
 /// Largest relative change of a sweep at which the system counts as solved.
 const TOLERANCE: f32 = 1e-6;
 
-/// Gauss-Seidel halves the error at least as fast as a pass of gathering does.
+/// Most sweeps; as many as passes of the slower Jacobi iteration.
 const MAX_SWEEPS: usize = 1000;
 
-/// The matrix would be too large.
+/// The matrix is too large.
 #[derive(Debug, Error)]
 #[error(
     "a full matrix of {num_patches} patches takes {gib:.1} GiB, more than {max_gib} GiB; take the progressive solver",
     max_gib = MAX_BYTES >> 30
 )]
 pub struct MatrixTooLarge {
-    /// Rows and columns.
+    /// Number of rows and of columns.
     pub num_patches: usize,
-    /// Its size.
+    /// Its size, GiB.
     pub gib: f64,
 }
 
-/// Asks whether the matrix of `mesh` is small enough.
+/// Checks that the matrix of `mesh` fits into memory.
 ///
 /// # Errors
-/// It is not.
+/// Returns an error if it does not.
 pub fn check_size(mesh: &PatchMesh) -> Result<(), MatrixTooLarge> {
     let num_patches = mesh.patches.len();
     let bytes = num_patches.saturating_mul(num_patches).saturating_mul(size_of::<Vec3>());
@@ -49,7 +50,8 @@ pub fn check_size(mesh: &PatchMesh) -> Result<(), MatrixTooLarge> {
     Ok(())
 }
 
-/// Solves for the indirect irradiance `[p][g]` on the patches; those without a row stay dark. Returns the sweeps it took.
+/// Solves for the indirect irradiance `[p][g]` on the patches; those without a row stay dark. Also returns the number of
+/// sweeps.
 ///
 /// Equation: I_p = b_p + sum over q of K_pq I_q with b_p = sum over e of F_pe rho_e D_e and K_pq = sum over e in q of
 /// F_pe rho_e.
@@ -60,7 +62,7 @@ pub fn solve(mesh: &PatchMesh, direct: &Field, rows: &RowStore) -> (Field, usize
     let (matrix, right): (Vec<Vec<Vec3>>, Vec<Vec<Vec3>>) =
         (0..size).into_par_iter().map(|p| equation(mesh, direct, rows, PatchId::new(p))).unzip();
     let mut solution = Field::from_values(direct.num_groups(), right.concat());
-    // Sweep over the unknowns, each time with the newest values of the others.
+    // Sweep over the unknowns, each from the newest values of the others.
     for sweep in 1..=MAX_SWEEPS {
         let (mut change, mut brightest) = (0.0f32, f32::MIN_POSITIVE);
         for p in 0..size {
@@ -80,7 +82,7 @@ pub fn solve(mesh: &PatchMesh, direct: &Field, rows: &RowStore) -> (Field, usize
     (solution, MAX_SWEEPS)
 }
 
-/// One row of the matrix, and its right side `[g]`.
+/// One row of the matrix `[p]`, and its right side `[g]`.
 fn equation(mesh: &PatchMesh, direct: &Field, rows: &RowStore, patch: PatchId) -> (Vec<Vec3>, Vec<Vec3>) {
     let mut matrix = vec![Vec3::ZERO; mesh.patches.len()];
     let mut right = vec![Vec3::ZERO; direct.num_groups()];
@@ -102,7 +104,7 @@ mod tests {
     use crate::scene::builtin;
 
     #[test]
-    fn a_matrix_that_would_not_fit_is_refused() {
+    fn a_matrix_that_does_not_fit_is_refused() {
         let scene = builtin::cornell();
         let settings = |size| MeshSettings { element_size: size, patch_size: size };
         let coarse = PatchMesh::new(&scene, &settings(0.5)).expect("a small mesh");

@@ -1,34 +1,34 @@
-//! Direct light on elements: the first power that is sent on.
+//! Direct light on elements: the first power that the solvers distribute.
 //!
-//! It is found at points of the elements and not at their vertices, which lie in creases and carry smooth normals. Points
-//! inside something leave the mean: a floor that runs on under a wall is as bright as its open part.
+//! It is sampled at points inside the elements and not at their vertices, which lie in creases and have smooth normals.
+//! Points inside a solid are left out of the mean: an element of a floor that extends under a wall is as bright as its open
+//! part.
 
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::direct::DirectLight;
-use super::field::Field;
-use super::sites::Sites;
+use super::direct_irradiance::DirectLight;
 use crate::base::progress::Progress;
 use crate::base::sampling::{cosine_hemisphere, r2};
 use crate::form_factor::{MAX_BACK_SHARE, Viewpoint};
 use crate::patch::PatchMesh;
+use crate::radiosity::field::Field;
+use crate::radiosity::viewpoints::Viewpoints;
 use crate::trace::Tracer;
 
-/// Rays that tell whether a dark point is inside something.
+/// Rays that test whether a dark point lies inside a solid.
 const NUM_PROBES: u32 = 8;
 
 /// Direct irradiance `[e][g]`, lux per channel: the mean over `num_points` points of each element.
 #[must_use]
 pub fn direct_on_elements(
     mesh: &PatchMesh,
-    sites: &Sites,
+    viewpoints: &Viewpoints,
     lights: &DirectLight<'_>,
-    tracer: &Tracer<'_>,
     num_points: usize,
     progress: &dyn Progress,
 ) -> Field {
-    let points = sites.of_elements(mesh, num_points);
+    let points = viewpoints.on_elements(mesh, num_points);
     let at_points = lights.irradiance(&points, progress);
     let num_groups = at_points.num_groups();
     let mut mean = Field::zero(mesh.elements.len(), num_groups);
@@ -39,10 +39,13 @@ pub fn direct_on_elements(
         let places = e * num_points..(e + 1) * num_points;
         let is_lit = |place: usize| at_points.total(place) != Vec3::ZERO;
         let num_lit = places.clone().filter(|&place| is_lit(place)).count();
-        // Where all are dark it does not matter which of them count.
+        // If all are dark, it does not matter which of them count.
         let num_open = match num_lit {
             0 => num_points,
-            _ => num_lit + places.clone().filter(|&p| !is_lit(p) && !is_inside(tracer, &points[p])).count(),
+            _ => {
+                num_lit
+                    + places.clone().filter(|&p| !is_lit(p) && !is_inside_solid(lights.tracer(), &points[p])).count()
+            }
         };
         for place in places {
             for (sum, &value) in sums.iter_mut().zip(at_points.at(place)) {
@@ -53,9 +56,9 @@ pub fn direct_on_elements(
     mean
 }
 
-/// The viewpoint lies inside something: it sees hardly anything but backs.
+/// True if the viewpoint lies inside a solid: almost all of its rays meet back faces.
 #[must_use]
-pub fn is_inside(tracer: &Tracer<'_>, viewpoint: &Viewpoint) -> bool {
+pub fn is_inside_solid(tracer: &Tracer<'_>, viewpoint: &Viewpoint) -> bool {
     let is_back = |i: &u32| {
         let direction = cosine_hemisphere(viewpoint.normal, r2(*i, viewpoint.seed));
         let hit = tracer.nearest(viewpoint.position, direction, f32::INFINITY);

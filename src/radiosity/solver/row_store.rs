@@ -1,71 +1,71 @@
-//! Rows of patches, kept as long as memory allows.
+//! Rows of patches, kept within a budget of memory.
 
-use super::sites::Sites;
 use crate::base::ids::PatchId;
 use crate::base::progress::Progress;
 use crate::form_factor::{Entry, FormFactorError, FormFactorSource, MAX_BACK_SHARE, Viewpoint, map_rows};
 use crate::patch::PatchMesh;
+use crate::radiosity::viewpoints::Viewpoints;
 
-/// What a patch sees: one entry an element, sorted by element.
+/// The row of a patch: one entry per element in view, sorted by element.
 #[derive(Clone, Debug, Default)]
 pub struct PatchRow {
     /// Form factors.
     pub entries: Vec<Entry>,
-    /// Share that ends on black backs.
+    /// Share of the view that ends on black backs.
     pub back: f32,
-    /// Share that leaves the scene.
+    /// Share of the view that meets no surface.
     pub sky: f32,
 }
 
-/// Finds rows on the fly and keeps them within a budget: a patch that shoots again needs no new hemicubes.
+/// Computes rows on demand and keeps them within a budget: a patch that shoots again needs no new hemicubes.
 #[derive(Debug)]
 pub struct RowStore {
     rows: Vec<Option<PatchRow>>,
     bytes: usize,
     budget: usize,
     points_a_patch: usize,
-    num_found: usize,
+    num_computed: usize,
 }
 
 impl RowStore {
     /// An empty store; each row will be the mean over `points_a_patch` viewpoints.
     #[must_use]
     pub fn new(num_patches: usize, points_a_patch: usize, budget: usize) -> Self {
-        Self { rows: vec![None; num_patches], bytes: 0, budget, points_a_patch, num_found: 0 }
+        Self { rows: vec![None; num_patches], bytes: 0, budget, points_a_patch, num_computed: 0 }
     }
 
-    /// Row of a patch, where it is kept.
+    /// The row of a patch; `None` if it is not kept.
     #[must_use]
     pub fn get(&self, patch: PatchId) -> Option<&PatchRow> {
         self.rows[patch.index()].as_ref()
     }
 
-    /// Viewpoints whose rows were found so far.
+    /// Number of viewpoints whose rows have been computed.
     #[must_use]
     pub fn num_viewpoints(&self) -> usize {
-        self.num_found * self.points_a_patch
+        self.num_computed * self.points_a_patch
     }
 
-    /// Makes sure that every one of `patches` has its row; false where cancelled before.
+    /// Computes the missing rows of `patches`; returns false if cancelled before all are there.
     ///
     /// # Errors
-    /// The form factors could not be found.
-    pub fn find(
+    /// Returns an error if the form factors cannot be computed.
+    pub fn compute(
         &mut self,
         patches: &[PatchId],
         mesh: &PatchMesh,
-        sites: &Sites,
-        method: &mut dyn FormFactorSource,
+        viewpoints: &Viewpoints,
+        source: &mut dyn FormFactorSource,
         progress: &dyn Progress,
     ) -> Result<bool, FormFactorError> {
         let missing: Vec<PatchId> = patches.iter().copied().filter(|&p| self.get(p).is_none()).collect();
-        let viewpoints: Vec<Viewpoint> =
-            missing.iter().flat_map(|p| sites.of_patch(mesh, &mesh.patches[p.index()], self.points_a_patch)).collect();
-        let go_on = || {
+        let of_patch = |p: &PatchId| viewpoints.on_patch(mesh, &mesh.patches[p.index()], self.points_a_patch);
+        let points: Vec<Viewpoint> = missing.iter().flat_map(of_patch).collect();
+        let may_continue = || {
             progress.rest();
             !progress.is_cancelled()
         };
-        let found = map_rows(method, &viewpoints, &go_on, |_, row| PatchRow {
+        let found = map_rows(source, &points, &may_continue, |_, row| PatchRow {
             entries: merged(&row.entries),
             back: row.back(),
             sky: row.sky,
@@ -74,12 +74,12 @@ impl RowStore {
             let row = mean_row(rows);
             self.bytes += size_of_val(row.entries.as_slice());
             self.rows[patch.index()] = Some(row);
-            self.num_found += 1;
+            self.num_computed += 1;
         }
-        Ok(found.len() == viewpoints.len())
+        Ok(found.len() == points.len())
     }
 
-    /// Drops rows of `patches`, last first, until the budget holds.
+    /// Drops rows of `patches`, the last first, until the budget is kept.
     pub fn keep_within_budget(&mut self, patches: &[PatchId]) {
         for patch in patches.iter().rev() {
             if self.bytes <= self.budget {
@@ -92,7 +92,7 @@ impl RowStore {
     }
 }
 
-/// One entry an element, by element id.
+/// One entry per element, sorted by element id.
 fn merged(entries: &[Entry]) -> Vec<Entry> {
     let mut sorted = entries.to_vec();
     sorted.sort_by_key(|entry| entry.element);
@@ -107,8 +107,8 @@ fn merged(entries: &[Entry]) -> Vec<Entry> {
     sorted
 }
 
-/// The mean of the rows of one patch's viewpoints. Those inside something are left out where there are others: no light
-/// comes or goes there, and the part that is open shall not be darker for it.
+/// The mean of the rows of one patch's viewpoints. Viewpoints inside a solid are left out if there are others: they exchange
+/// no light and would darken the open part of the patch.
 fn mean_row(rows: &[PatchRow]) -> PatchRow {
     let is_open = |row: &&PatchRow| row.back <= MAX_BACK_SHARE;
     let num_open = rows.iter().filter(is_open).count();
