@@ -2,7 +2,7 @@
 //
 // node make_files.mjs small writes a coarser set to fuzz/small, for fuzzers to begin with.
 //
-// The encoders are those of glTF Transform, Draco, meshoptimizer, sharp and Basis Universal. tests/twins.rs loads every
+// The encoders are those of glTF Transform, Draco, meshoptimizer, sharp and Basis Universal. tests/scene/twins.rs loads every
 // file and holds it against its plain twin.
 
 import { writeFile } from 'node:fs/promises';

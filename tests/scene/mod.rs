@@ -1,0 +1,6 @@
+//! Scenes: reading glTF, the scenes that ship with the program.
+
+mod assets;
+mod builtin;
+mod loader;
+mod twins;

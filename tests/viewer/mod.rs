@@ -1,0 +1,5 @@
+//! The viewer: its pictures and its panels.
+
+mod canvas;
+mod comparison;
+mod panels;
