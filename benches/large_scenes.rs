@@ -122,7 +122,7 @@ fn ball(scene: &mut Scene, centre: Vec3, radius: f32, n: u32) {
             let [a, b] = [ring, ring + 1].map(|r| first + r * (around + 1) + step);
             for [p, q, r] in [[a, b, b + 1], [a, b + 1, a + 1]] {
                 let vertices = if radius < 0.0 { [p, r, q] } else { [p, q, r] };
-                let triangle = Triangle { vertices, material: MaterialId(0), instance, is_back_side: false };
+                let triangle = Triangle { vertices, material: MaterialId(0), instance };
                 let corners = vertices.map(|v| scene.vertices[v as usize].position);
                 if hemicube::scene::area_of(corners) > 1e-9 {
                     scene.triangles.push(triangle);

@@ -26,7 +26,7 @@ use crate::radiosity::adaptive_subdivision::AdaptiveSubdivision;
 use crate::radiosity::direct::DirectLight;
 use crate::radiosity::direct::direct_on_elements;
 use crate::radiosity::gather::GatheredLight;
-use crate::radiosity::reconstruction::{average, dark_scene, fill_hidden, vertex_light};
+use crate::radiosity::reconstruction::{average, fill_hidden, vertex_light};
 use crate::radiosity::solver::Solution;
 use crate::radiosity::solver::full_matrix::MatrixTooLarge;
 use crate::scene::Scene;
@@ -110,7 +110,7 @@ pub fn bake_with_rows(
     let (mut cut, mesh) = AdaptiveSubdivision::new(scene, sizes)?;
     let predicted = Forecast::of_mesh(scene, &mesh, settings, method).bytes as u64;
     log::info!("{} elements; about {} MiB of memory", mesh.elements.len(), predicted >> 20);
-    watch.mesh(&dark_scene(scene, &mesh));
+    watch.mesh(&BakedScene::of_mesh(scene, &mesh));
     clock.lap(Stage::Mesh);
 
     // Direct light at the vertices, to be shown, with more of them where it changes, and on the elements, to be sent on.
@@ -202,7 +202,7 @@ fn put_on_mesh(
 
 /// A mesh with light at its light vertices.
 fn lit_mesh(scene: &Scene, mesh: &PatchMesh, direct: &Field, indirect: &Field) -> BakedScene {
-    BakedScene { light: vertex_light(mesh, direct, indirect), ..dark_scene(scene, mesh) }
+    BakedScene { light: vertex_light(mesh, direct, indirect), ..BakedScene::of_mesh(scene, mesh) }
 }
 
 /// Indirect light at the vertices from an unfinished solution: averages plus the ambient estimate.

@@ -10,7 +10,7 @@ use uvunwrap::{Atlas, Density, MeshInput, Options, OutputMesh, Packing, generate
 
 use super::{LightmapError, LightmapSettings};
 use crate::base::ids::{InstanceId, TriangleId};
-use crate::scene::{Instance, Scene, Triangle, Vertex};
+use crate::scene::{Instance, Scene, Sides, Triangle, Vertex};
 
 /// Empty texels round each chart: linear filtering needs one, the first smaller mip level two.
 const PADDING: u32 = 2;
@@ -36,7 +36,13 @@ pub(super) fn lay_flat(scene: &Scene, settings: &LightmapSettings) -> Result<Lay
     let inputs: Vec<MeshInput<'_>> = sheets.iter().flatten().map(Sheet::input).collect();
     let atlas = packed(&inputs, sheets.iter().flatten().map(|sheet| sheet.area).sum(), settings)?;
     let mut layout = Layout {
-        scene: Scene { vertices: Vec::new(), triangles: Vec::new(), instances: Vec::new(), ..scene.clone() },
+        scene: Scene {
+            vertices: Vec::new(),
+            triangles: Vec::new(),
+            sides: Sides::default(),
+            instances: Vec::new(),
+            ..scene.clone()
+        },
         coordinates: Vec::new(),
         sources: Vec::new(),
         size: [atlas.width, atlas.height],
@@ -128,8 +134,10 @@ impl Layout {
                 vertices: corners.map(|corner| first + corner),
                 material: scene.triangles[source.index()].material,
                 instance: InstanceId::new(sheet.instance),
-                is_back_side: sheet.is_back,
             });
+            if sheet.is_back {
+                self.scene.sides.add_back(TriangleId::new(self.sources.len()));
+            }
             self.sources.push(source);
         }
     }

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3, Vec3};
 
 use super::layout::Layout;
 use crate::baked::VertexLight;
+use crate::base::ids::TriangleId;
 use crate::patch::{Element, PatchMesh};
 
 /// An element laid flat.
@@ -27,7 +28,7 @@ pub(super) fn pieces<'a>(
     };
     (0..layout.sources.len()).flat_map(move |t| {
         let flattening = Flattening::of(layout, t);
-        let elements = mesh.elements_of(layout.sources[t], layout.scene.triangles[t].is_back_side);
+        let elements = mesh.elements_of(layout.sources[t], layout.scene.sides.is_back(TriangleId::new(t)));
         elements.iter().map(move |element| Piece {
             corners: flattening.corners(mesh, element),
             light: element.vertices.map(irradiance),

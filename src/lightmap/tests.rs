@@ -87,7 +87,7 @@ fn no_light_bleeds_from_one_surface_into_another() {
         let map = lightmap(&scene, &mesh, &light, &settings).expect("it fits");
         for (t, place, light) in shown(&map) {
             let triangle = map.scene.triangles[t];
-            let expected = own((triangle.instance.index(), triangle.is_back_side));
+            let expected = own((triangle.instance.index(), map.scene.sides.is_back(TriangleId::new(t))));
             assert!((light - expected).abs().max_element() < 1e-3, "{light} and not {expected} at {place}");
         }
     }

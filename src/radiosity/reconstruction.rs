@@ -3,51 +3,8 @@
 use glam::Vec3;
 
 use super::field::Field;
-use crate::baked::{BakedScene, GroupLight, VertexLight};
+use crate::baked::{GroupLight, VertexLight};
 use crate::patch::PatchMesh;
-use crate::scene::{Instance, Scene, Triangle};
-
-/// The elements of `mesh` as a scene without light.
-#[must_use]
-pub fn dark_scene(scene: &Scene, mesh: &PatchMesh) -> BakedScene {
-    let triangles: Vec<Triangle> = mesh
-        .elements
-        .iter()
-        .map(|element| Triangle {
-            vertices: element.vertices,
-            is_back_side: element.is_back,
-            ..scene.triangles[element.triangle.index()]
-        })
-        .collect();
-    // Elements are in the order of their input triangles, so an instance's elements are one range too.
-    let first_element = |t: usize| mesh.roots.get(t).map_or(triangles.len(), |root| root.first_element as usize);
-    let instances = scene
-        .instances
-        .iter()
-        .map(|instance| Instance {
-            name: instance.name.clone(),
-            triangles: first_element(instance.triangles.start)..first_element(instance.triangles.end),
-        })
-        .collect();
-    let light = VertexLight::dark(scene.light_groups.len(), mesh.vertices.len());
-    let scene = Scene {
-        name: scene.name.clone(),
-        vertices: mesh.vertices.clone(),
-        triangles,
-        instances,
-        nodes: scene.nodes.clone(),
-        materials: scene.materials.clone(),
-        textures: scene.textures.clone(),
-        lights: scene.lights.clone(),
-        cameras: scene.cameras.clone(),
-        light_groups: scene.light_groups.clone(),
-        irradiance: Vec::new(),
-        notes: scene.notes.clone(),
-        variants: Vec::new(),
-        dropped_triangles: scene.dropped_triangles,
-    };
-    BakedScene { scene, light }
-}
 
 /// Light at light vertices `[l][g]` spread to the vertices `[v]` of the drawn mesh.
 #[must_use]

@@ -16,6 +16,7 @@ pub mod node;
 pub mod photometry;
 mod reflectance;
 mod scene_builder;
+mod sides;
 mod texture;
 mod triangle;
 
@@ -26,5 +27,6 @@ pub use model::{Instance, Scene, VertexAttribute};
 pub use node::{NamedNode, Transform};
 pub use photometry::Profile;
 pub use scene_builder::SceneBuilder;
+pub use sides::{Back, Sides};
 pub use texture::{Image, Sampler, Texture, TextureSlot, Wrap};
 pub use triangle::{Triangle, Vertex, area_of, edge_cross, is_degenerate, is_placeable, normal_of};

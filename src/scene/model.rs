@@ -8,6 +8,7 @@ use super::camera::Camera;
 use super::light::Light;
 use super::material::{Material, SurfacePoint};
 use super::node::NamedNode;
+use super::sides::Sides;
 use super::texture::Texture;
 use super::triangle::{Triangle, Vertex, area_of};
 use crate::base::bounds::Bounds;
@@ -22,6 +23,8 @@ pub struct Scene {
     pub vertices: Vec<Vertex>,
     /// Triangles `[t]`, those of one instance side by side.
     pub triangles: Vec<Triangle>,
+    /// Which triangles are backs of others. Only bakes have any.
+    pub sides: Sides,
     /// Placed primitives `[i]`.
     pub instances: Vec<Instance>,
     /// The file's tree of nodes, parents first; empty if the scene does not come from a file.

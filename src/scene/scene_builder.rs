@@ -78,12 +78,7 @@ impl SceneBuilder {
         let (instance, first) = (InstanceId::new(scene.instances.len()), scene.vertices.len() as u32);
         let start = scene.triangles.len();
         scene.vertices.extend(vertices);
-        let triangle = |corners: [u32; 3]| Triangle {
-            vertices: corners.map(|v| first + v),
-            material,
-            instance,
-            is_back_side: false,
-        };
+        let triangle = |corners: [u32; 3]| Triangle { vertices: corners.map(|v| first + v), material, instance };
         scene.triangles.extend(triangles.into_iter().map(triangle));
         scene.instances.push(Instance { name: name.to_owned(), triangles: start..scene.triangles.len() });
         self

@@ -42,8 +42,6 @@ pub struct Triangle {
     pub material: MaterialId,
     /// The instance that it belongs to.
     pub instance: InstanceId,
-    /// True for the back of a double-sided triangle, which a bake writes as a triangle of its own; rays hit only the front.
-    pub is_back_side: bool,
 }
 
 /// Cross product of two edges: it points along the front normal and is twice the area long.

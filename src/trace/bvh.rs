@@ -44,9 +44,8 @@ impl<'a> Tracer<'a> {
     /// Cost: about a microsecond a triangle.
     #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
-        let all = (0..scene.triangles.len()).map(TriangleId::new);
-        let leaves: Vec<Leaf> = all
-            .filter(|t| !scene.triangles[t.index()].is_back_side)
+        let leaves: Vec<Leaf> = scene
+            .fronts()
             .map(|triangle| {
                 let is_opaque = scene.material_of(triangle).alpha_mode == AlphaMode::Opaque;
                 Leaf { triangle, is_opaque }

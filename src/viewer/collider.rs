@@ -60,8 +60,7 @@ impl Collider {
     /// Cost: about a microsecond a triangle.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
-        let fronts: Vec<TriangleId> =
-            (0..scene.triangles.len()).filter(|&t| !scene.triangles[t].is_back_side).map(TriangleId::new).collect();
+        let fronts: Vec<TriangleId> = scene.fronts().collect();
         let solid: Vec<Triangle> = fronts
             .iter()
             .map(|&t| {

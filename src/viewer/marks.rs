@@ -62,9 +62,8 @@ impl Marks {
     /// Tints an instance.
     pub fn chosen(&mut self, scene: &Scene, instance: InstanceId) {
         let Some(instance) = scene.instances.get(instance.index()) else { return };
-        let triangles = instance.triangles.clone().filter(|&t| !scene.triangles[t].is_back_side);
-        for t in triangles {
-            self.face(scene, TriangleId::new(t), CHOSEN);
+        for t in instance.triangles.clone().map(TriangleId::new).filter(|&t| !scene.sides.is_back(t)) {
+            self.face(scene, t, CHOSEN);
         }
     }
 
@@ -125,7 +124,7 @@ fn borders(
 ) -> Vec<[Vec3; 2]> {
     let key = |p: Vec3| p.to_array().map(f32::to_bits);
     let mut parts: HashMap<_, (Option<usize>, u32, bool, [Vec3; 2])> = HashMap::new();
-    for triangle in triangles.filter(|t| !scene.triangles[t.index()].is_back_side) {
+    for triangle in triangles.filter(|&t| !scene.sides.is_back(t)) {
         let corners = scene.corners(triangle);
         let part = part_of(triangle.index());
         for (a, b) in [(0, 1), (1, 2), (2, 0)].map(|(i, j)| (corners[i], corners[j])) {

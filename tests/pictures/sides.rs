@@ -3,7 +3,7 @@
 use std::f32::consts::PI;
 
 use glam::Vec3;
-use hemicube::base::ids::GroupId;
+use hemicube::base::ids::{GroupId, TriangleId};
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{RenderSettings, picture_of};
 use hemicube::scene::{AlphaMode, Material};
@@ -82,9 +82,7 @@ fn baked_twins_are_seen_each_from_its_side() {
     // The front twin looks away and is lit ten times as much.
     let mut quads = from_behind(Material { double_sided: true, ..paint(Vec3::ONE) });
     quads.quad(Vec3::new(-1.0, -1.0, 0.0), 2.0 * Vec3::X, 2.0 * Vec3::Y, hemicube::base::ids::MaterialId(0));
-    for triangle in &mut quads.baked.scene.triangles[2..] {
-        triangle.is_back_side = true;
-    }
+    [2, 3].map(TriangleId).into_iter().for_each(|back| quads.baked.scene.sides.add_back(back));
     quads.light(GroupId(0), |_| Vec3::splat(PI), |_| Vec3::ZERO);
     for lit in &mut quads.baked.light.groups[0].direct[..4] {
         *lit *= 10.0;

@@ -6,7 +6,6 @@ use glam::Vec3;
 use hemicube::baked::BakedScene;
 use hemicube::gpu::Gpu;
 use hemicube::patch::{MeshSettings, PatchMesh};
-use hemicube::radiosity::reconstruction::dark_scene;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{
     Exposure, RenderSettings, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, View, picture_in_light,
@@ -23,7 +22,7 @@ const SIZE: [u32; 2] = [160, 90];
 fn waving() -> BakedScene {
     let scene = builtin::cornell();
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.2, patch_size: 1.0 }).expect("a mesh");
-    let mut baked = dark_scene(&scene, &mesh);
+    let mut baked = BakedScene::of_mesh(&scene, &mesh);
     let wave = |p: Vec3, normal: Vec3| Vec3::splat(2.0) + (2.0 * p + normal).map(f32::sin);
     let light = &mut baked.light.groups[0];
     for (v, vertex) in baked.scene.vertices.iter().enumerate() {

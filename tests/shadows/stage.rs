@@ -63,7 +63,6 @@ impl Stage {
             vertices: [first, first + 1, first + 2],
             material: MaterialId(material),
             instance: InstanceId(0),
-            is_back_side: false,
         });
         self
     }

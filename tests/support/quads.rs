@@ -81,7 +81,7 @@ impl Quads {
         }
         for corners in [[0, 1, 2], [0, 2, 3]] {
             let vertices = corners.map(|corner| first + corner);
-            scene.triangles.push(Triangle { vertices, material, instance: InstanceId(0), is_back_side: false });
+            scene.triangles.push(Triangle { vertices, material, instance: InstanceId(0) });
         }
         self
     }

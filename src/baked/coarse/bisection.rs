@@ -7,6 +7,7 @@
 
 use glam::{IVec2, Vec2, Vec3, Vec4};
 
+use crate::base::ids::TriangleId;
 use crate::scene::{AlphaMode, Scene, Triangle};
 
 /// How far the middle of an edge may be from where it belongs: rounding of the transforms that a file went through.
@@ -52,7 +53,7 @@ impl Forest {
         forest.parents = vec![None; forest.nodes.len()];
         let kind = |t: usize| {
             let triangle = &scene.triangles[t];
-            (triangle.instance, triangle.material, triangle.is_back_side)
+            (triangle.instance, triangle.material, scene.sides.is_back(TriangleId::new(t)))
         };
         let mut unpaired: Vec<u32> = Vec::new();
         for (t, triangle) in scene.triangles.iter().enumerate() {

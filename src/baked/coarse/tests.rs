@@ -2,10 +2,12 @@ use std::collections::HashMap;
 
 use glam::{UVec2, Vec2, Vec3};
 
-use super::{CoarseMesh, NOTHING, Tile};
+use super::tiles::NOTHING;
+use super::{CoarseMesh, Tile};
+use crate::baked::BakedScene;
 use crate::base::sampling::r2;
 use crate::patch::{MeshSettings, PatchMesh, Splits};
-use crate::scene::{AlphaMode, Instance, Scene, Triangle, builtin};
+use crate::scene::{AlphaMode, Scene, Triangle, builtin};
 
 const MAX_SIDE: u32 = 8192;
 
@@ -24,13 +26,7 @@ fn elements_of(scene: &Scene, element_size: f32) -> Scene {
         }
         mesh = PatchMesh::refined(scene, &settings, &mut splits).expect("a mesh");
     }
-    let triangles: Vec<Triangle> = mesh
-        .elements
-        .iter()
-        .map(|e| Triangle { vertices: e.vertices, is_back_side: e.is_back, ..scene.triangles[e.triangle.index()] })
-        .collect();
-    let instances = vec![Instance { name: String::new(), triangles: 0..triangles.len() }];
-    Scene { vertices: mesh.vertices, triangles, instances, ..scene.clone() }
+    BakedScene::of_mesh(scene, &mesh).scene
 }
 
 fn corners(scene: &Scene, triangle: &Triangle) -> [Vec3; 3] {

@@ -9,10 +9,11 @@
 
 use glam::{IVec2, UVec2};
 
-use super::NOTHING;
 use super::bisection::Forest;
 use super::coarsen::{MAX_LEVEL, Whole, num_texels};
 
+/// The element of texels without one. As in shaders/stored_light/light_tiles.wgsl.
+pub(crate) const NOTHING: u32 = u32::MAX;
 /// Textures are a multiple of this wide.
 const STEP: u32 = 64;
 /// Least texels across: the largest tile fits.

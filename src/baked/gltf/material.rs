@@ -11,7 +11,7 @@ use image::{ExtendedColorType, ImageEncoder};
 use serde_json::{Map, Value, json};
 
 use super::binary::Binary;
-use super::{Extensions, look, named, node};
+use super::{Extensions, named, node, unlit};
 use crate::scene::{AlphaMode, Image, Material, Sampler, Scene, TextureSlot, Wrap};
 
 /// The arrays that tell what surfaces look like.
@@ -141,7 +141,7 @@ fn showing_light(mut object: Value, material: &Material, used: &mut Extensions) 
     });
     let pbr = &mut object["pbrMetallicRoughness"];
     pbr["baseColorFactor"] = json!([1.0, 1.0, 1.0, material.base_colour.w]);
-    if let Some(slot) = material.emissive_texture.filter(|_| look::shows_emission(material)) {
+    if let Some(slot) = material.emissive_texture.filter(|_| unlit::shows_emission(material)) {
         paint["shows_emission"] = json!(true);
         paint["base_colour_texture"] = pbr["baseColorTexture"].take();
         pbr["baseColorTexture"] = texture_info(&slot, used);

@@ -8,8 +8,8 @@ use serde_json::{Map, Value, json};
 use super::binary::Binary;
 use super::hierarchy::{Branch, Space};
 use super::material::texture_slots;
-use super::{LightOf, lightmap, named};
-use crate::base::ids::MaterialId;
+use super::{LightOf, moz_lightmap, named};
+use crate::base::ids::{MaterialId, TriangleId};
 use crate::scene::{Material, Scene, Vertex};
 
 /// One mesh a branch that has triangles, in their order.
@@ -20,21 +20,22 @@ pub(super) fn meshes(scene: &Scene, branches: &[Branch], light: LightOf<'_>, bin
 
 fn mesh(scene: &Scene, light: LightOf<'_>, branch: &Branch, binary: &mut Binary) -> Value {
     let mut parts: BTreeMap<(MaterialId, bool), Vec<[u32; 3]>> = BTreeMap::new();
-    for triangle in &scene.triangles[branch.triangles.clone()] {
+    for t in branch.triangles.clone() {
+        let triangle = &scene.triangles[t];
         let [a, b, c] = triangle.vertices;
         let corners = if branch.space.is_mirrored() { [a, c, b] } else { [a, b, c] };
-        parts.entry((triangle.material, triangle.is_back_side)).or_default().push(corners);
+        parts.entry((triangle.material, scene.sides.is_back(TriangleId::new(t)))).or_default().push(corners);
     }
     let primitives: Vec<Value> = parts
         .into_iter()
-        .map(|((material, is_back_side), triangles)| {
+        .map(|((material, is_back), triangles)| {
             let (vertices, indices) = renumber(&triangles);
             let mut primitive = json!({
                 "attributes": attributes(scene, light, &branch.space, material, &vertices, binary),
                 "indices": binary.push_indices(&indices, vertices.len()),
                 "material": material.index(),
             });
-            if is_back_side {
+            if is_back {
                 primitive["extras"] = json!({ "back_side": true });
             }
             primitive
@@ -78,7 +79,7 @@ fn attributes(
     put("POSITION".into(), binary.push_positions(used().map(|vertex| space.position(vertex.position).to_array())));
     put("NORMAL".into(), binary.push_attribute(used().map(|vertex| space.normal(vertex.normal).to_array())));
     let num_uv_sets = match light {
-        LightOf::Texture { .. } => lightmap::uv_set(material),
+        LightOf::Texture { .. } => moz_lightmap::uv_set(material),
         LightOf::Nothing | LightOf::Vertices(_) => num_uv_sets(material, used()),
     };
     for set in 0..num_uv_sets {

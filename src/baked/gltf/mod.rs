@@ -9,19 +9,19 @@
 //! Programs that want light as a texture get a file of their own (`lightmap.rs`).
 //!
 //! Light comes back bit by bit, and so do meshes whose nodes are not turned; others within rounding, because each mesh is told
-//! in the space of its node, where other programs look for it.
+//! in the space of its node, where other programs unlit for it.
 //! Deliberately absent: reading files, which is the loader's alone ([`crate::scene`]).
 //!
 //! Source: glTF 2.0 specification, sections 3 (concepts) and 4 (GLB file format).
 
 mod binary;
 mod hierarchy;
-mod lightmap;
-mod look;
 mod material;
 mod mesh;
+mod moz_lightmap;
 mod node;
 mod read;
+mod unlit;
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -29,7 +29,7 @@ use std::path::Path;
 use serde_json::{Map, Value, json};
 
 use self::binary::Binary;
-use self::look::Look;
+use self::unlit::UnlitAppearance;
 use super::{BakedError, BakedScene, Lightmap};
 use crate::base::output::write_whole;
 use crate::scene::Scene;
@@ -69,8 +69,8 @@ fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), BakedError> {
 /// # Errors
 /// The scene is larger than a .glb can be.
 pub fn to_glb(baked: &BakedScene, exposure_ev: f32) -> Result<Vec<u8>, BakedError> {
-    let look = Look { light: &baked.light, exposure: exposure_ev.exp2() };
-    let mut document = Document::of(&baked.scene, LightOf::Vertices(look));
+    let unlit = UnlitAppearance { light: &baked.light, exposure: exposure_ev.exp2() };
+    let mut document = Document::of(&baked.scene, LightOf::Vertices(unlit));
     document.root["scenes"][0]["extras"]["exposure_ev"] = json!(exposure_ev);
     document.into_glb()
 }
@@ -81,11 +81,11 @@ pub fn to_glb(baked: &BakedScene, exposure_ev: f32) -> Result<Vec<u8>, BakedErro
 /// The scene is larger than a .glb can be.
 pub fn lightmap_to_glb(lightmap: &Lightmap, exposure_ev: f32) -> Result<Vec<u8>, BakedError> {
     let exposure = exposure_ev.exp2();
-    let scene = lightmap::shown(lightmap, exposure);
+    let scene = moz_lightmap::shown(lightmap, exposure);
     let mut document = Document::of(&scene, LightOf::Texture { lightmap, exposure });
     let extras = &mut document.root["scenes"][0]["extras"];
     extras["exposure_ev"] = json!(exposure_ev);
-    extras["lightmap_white_lux"] = json!(lightmap::white(lightmap, exposure));
+    extras["lightmap_white_lux"] = json!(moz_lightmap::white(lightmap, exposure));
     document.into_glb()
 }
 
@@ -103,7 +103,7 @@ enum LightOf<'a> {
     /// Nowhere.
     Nothing,
     /// At its vertices.
-    Vertices(Look<'a>),
+    Vertices(UnlitAppearance<'a>),
     /// In a texture; displayed = radiance x exposure.
     Texture { lightmap: &'a Lightmap, exposure: f32 },
 }
@@ -127,7 +127,7 @@ impl Document {
         let is_baked = matches!(light, LightOf::Vertices(_));
         let mut surfaces = material::surfaces(scene, is_baked, &mut binary, &mut extensions);
         if let LightOf::Texture { lightmap, exposure } = light {
-            lightmap::add(lightmap, exposure, scene, &mut surfaces, &mut binary, &mut extensions);
+            moz_lightmap::add(lightmap, exposure, scene, &mut surfaces, &mut binary, &mut extensions);
         }
         let mut root = Map::new();
         let mut put = |key: &str, items: Vec<Value>| {

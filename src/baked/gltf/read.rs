@@ -1,5 +1,6 @@
 //! A bake read back: a loaded scene whose vertices carry light.
 
+use crate::baked::pairing::pair_by_position;
 use crate::baked::{BakedScene, GroupLight, VertexLight};
 use crate::scene::{Scene, VertexAttribute};
 
@@ -26,6 +27,9 @@ pub fn from_scene(mut scene: Scene) -> Result<BakedScene, Scene> {
         if let Some((part, group)) = place_of(&attribute) {
             *part(&mut light.groups[group]) = attribute.values;
         }
+    }
+    if scene.sides.num_unpaired() > 0 {
+        pair_by_position(&mut scene);
     }
     Ok(BakedScene { scene, light })
 }

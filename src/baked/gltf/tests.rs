@@ -6,9 +6,9 @@ use glam::{Affine2, Vec2, Vec3, Vec4};
 
 use super::*;
 use crate::baked::VertexLight;
-use crate::base::ids::{GroupId, InstanceId, MaterialId, TextureId};
+use crate::base::ids::{GroupId, InstanceId, MaterialId, TextureId, TriangleId};
 use crate::scene::{
-    AlphaMode, Camera, Image, Instance, Light, LightKind, Material, Projection, Sampler, Texture, TextureSlot,
+    AlphaMode, Camera, Image, Instance, Light, LightKind, Material, Projection, Sampler, Sides, Texture, TextureSlot,
     Triangle, Vertex, Wrap,
 };
 
@@ -89,23 +89,25 @@ fn scene() -> Scene {
     };
     let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
     let vertices = [0.1, 0.2, 0.2].into_iter().flat_map(|z| square.map(|at| corner(at, z))).collect();
-    let triangle = |vertices: [u32; 3], material: u32, is_back_side| Triangle {
+    let triangle = |vertices: [u32; 3], material: u32| Triangle {
         vertices,
         material: MaterialId(material),
         instance: InstanceId(0),
-        is_back_side,
     };
     let triangles = vec![
-        triangle([0, 1, 2], 0, false),
-        triangle([4, 5, 6], 1, false),
-        triangle([0, 2, 3], 0, false),
-        triangle([4, 6, 7], 1, false),
-        triangle([10, 9, 8], 1, true),
+        triangle([0, 1, 2], 0),
+        triangle([4, 5, 6], 1),
+        triangle([0, 2, 3], 0),
+        triangle([4, 6, 7], 1),
+        triangle([10, 9, 8], 1),
     ];
     let mut ortho = Camera::looking_at("plan", Vec3::new(0.0, 5.0, 0.1), Vec3::ZERO, 1.0);
     ortho.projection = Projection::Orthographic { half_height: 2.0 };
+    let mut sides = Sides::default();
+    sides.add_back(TriangleId(4));
     Scene {
         name: "all".into(),
+        sides,
         instances: vec![Instance { name: "squares".into(), triangles: 0..triangles.len() }],
         vertices,
         triangles,
@@ -151,9 +153,11 @@ fn reloaded(glb: &[u8]) -> Scene {
 }
 
 /// Corners of the triangles in file order: those of one primitive side by side.
-fn sorted_triangles(scene: &Scene) -> Vec<&Triangle> {
-    let mut triangles: Vec<&Triangle> = scene.triangles.iter().collect();
-    triangles.sort_by_key(|triangle| (triangle.material, triangle.is_back_side));
+fn sorted_triangles(scene: &Scene) -> Vec<(bool, &Triangle)> {
+    let is_back = |t: usize| scene.sides.is_back(TriangleId::new(t));
+    let mut triangles: Vec<(bool, &Triangle)> =
+        scene.triangles.iter().enumerate().map(|(t, triangle)| (is_back(t), triangle)).collect();
+    triangles.sort_by_key(|(is_back, triangle)| (triangle.material, *is_back));
     triangles
 }
 
@@ -162,8 +166,10 @@ fn positions_and_light_come_back_bit_by_bit() {
     let stored = baked();
     let Ok(back) = from_scene(reloaded(&to_glb(&stored, 9.5).expect("small"))) else { panic!("the light is lost") };
     assert_eq!(back.scene.triangles.len(), stored.scene.triangles.len());
-    for (a, b) in sorted_triangles(&stored.scene).into_iter().zip(sorted_triangles(&back.scene)) {
-        assert_eq!((a.material, a.is_back_side), (b.material, b.is_back_side));
+    for ((a_is_back, a), (b_is_back, b)) in
+        sorted_triangles(&stored.scene).into_iter().zip(sorted_triangles(&back.scene))
+    {
+        assert_eq!((a.material, a_is_back), (b.material, b_is_back));
         for (v, w) in a.vertices.map(|v| v as usize).into_iter().zip(b.vertices.map(|v| v as usize)) {
             assert_eq!(stored.scene.vertices[v], back.scene.vertices[w]);
             for (stored, back) in stored.light.groups.iter().zip(&back.light.groups) {

@@ -132,7 +132,6 @@ fn add(scene: &mut Scene, polygon: &Polygon, material: u32) {
         vertices: [first, first + k, first + k + 1],
         material: MaterialId(material),
         instance: InstanceId::new(scene.instances.len()),
-        is_back_side: false,
     }));
     scene.instances.push(Instance { name: String::new(), triangles: start..scene.triangles.len() });
 }

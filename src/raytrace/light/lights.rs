@@ -64,12 +64,10 @@ pub(crate) struct EmitterSample {
 
 impl<'a> Lights<'a> {
     pub(crate) fn new(scene: &'a Scene) -> Self {
-        let candidates = (0..scene.triangles.len()).map(TriangleId::new);
-        let shining = candidates.filter(|&t| !scene.triangles[t.index()].is_back_side);
         let (mut emitters, mut bounds, mut power_until) = (Vec::new(), Vec::new(), Vec::new());
         let mut whole = 0.0;
         let mut emitter_of = vec![NO_EMITTER; scene.triangles.len()];
-        for triangle in shining.filter(|&t| scene.material_of(t).is_emissive()) {
+        for triangle in scene.fronts().filter(|&t| scene.material_of(t).is_emissive()) {
             let radiance = mean_radiance(scene, triangle);
             if radiance <= 0.0 {
                 continue;

@@ -27,7 +27,7 @@ impl MeshTriangles<'_> {
     /// Sorts the triangles that `is_shown` returns true for by material, those that blend last, and cuts them into batches and
     /// chunks.
     pub fn order(&self, scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> DrawOrder {
-        let has_twins = self.triangles.iter().any(|triangle| triangle.is_back_side);
+        let has_twins = scene.sides.has_backs();
         let material_of = |id: &TriangleId| self.triangles[id.index()].material;
         let blends = |id: &TriangleId| scene.materials[material_of(id).index()].alpha_mode == AlphaMode::Blend;
         let key = |id: &TriangleId| (blends(id), material_of(id), id.index() >= self.num_tiled);
@@ -98,8 +98,8 @@ mod tests {
     use crate::base::ids::{InstanceId, MaterialId};
     use crate::scene::{Material, Vertex, builtin};
 
-    fn triangle(material: u32, is_back_side: bool) -> Triangle {
-        Triangle { vertices: [material; 3], material: MaterialId(material), instance: InstanceId(0), is_back_side }
+    fn triangle(material: u32) -> Triangle {
+        Triangle { vertices: [material; 3], material: MaterialId(material), instance: InstanceId(0) }
     }
 
     fn scene_of(modes: &[(AlphaMode, bool)], triangles: Vec<Triangle>) -> Scene {
@@ -112,7 +112,7 @@ mod tests {
     #[test]
     fn blending_triangles_are_drawn_last() {
         let modes = [(AlphaMode::Blend, false), (AlphaMode::Opaque, false)];
-        let scene = scene_of(&modes, vec![triangle(0, false), triangle(1, false), triangle(0, false)]);
+        let scene = scene_of(&modes, vec![triangle(0), triangle(1), triangle(0)]);
         let (order, indices) = draw_order(&scene, |_| true);
         assert_eq!(indices, [1, 1, 1, 0, 0, 0, 0, 0, 0]);
         assert_eq!(order.batches.iter().map(|b| b.indices.clone()).collect::<Vec<_>>(), [0..3, 3..9]);
@@ -121,11 +121,12 @@ mod tests {
     #[test]
     fn double_sided_triangles_are_culled_only_if_their_twins_exist() {
         let modes = [(AlphaMode::Opaque, true), (AlphaMode::Opaque, false)];
-        let faces = |triangles| -> Vec<Faces> {
-            draw_order(&scene_of(&modes, triangles), |_| true).0.batches.iter().map(|b| b.faces).collect()
-        };
-        assert_eq!(faces(vec![triangle(0, false), triangle(1, false)]), [Faces::Both, Faces::Front]);
-        assert_eq!(faces(vec![triangle(0, false), triangle(0, true)]), [Faces::FrontOfTwins]);
+        let faces =
+            |scene: &Scene| -> Vec<Faces> { draw_order(scene, |_| true).0.batches.iter().map(|b| b.faces).collect() };
+        assert_eq!(faces(&scene_of(&modes, vec![triangle(0), triangle(1)])), [Faces::Both, Faces::Front]);
+        let mut baked = scene_of(&modes, vec![triangle(0), triangle(0)]);
+        baked.sides.add_back(TriangleId(1));
+        assert_eq!(faces(&baked), [Faces::FrontOfTwins]);
     }
 
     #[test]

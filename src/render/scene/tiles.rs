@@ -101,7 +101,7 @@ impl Tiles {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::baked::coarse::NOTHING;
+    use crate::baked::coarse::tiles::NOTHING;
     use crate::gpu::shader::{constant, struct_layout};
     use crate::render::stored_light::light_tiles::LIGHT_TILES;
 

@@ -9,7 +9,7 @@ use std::collections::HashMap;
 
 use glam::Vec3;
 
-use crate::base::ids::{InstanceId, TriangleId};
+use crate::base::ids::InstanceId;
 use crate::scene::{AlphaMode, Scene, edge_cross};
 
 /// A corner this near to an edge, as a share of the scene's extent, lies on it.
@@ -70,11 +70,10 @@ impl Casters {
     pub fn new(scene: &Scene) -> Self {
         let mut casters = Self::default();
         let mut places: HashMap<[u32; 3], u32> = HashMap::new();
-        for (t, triangle) in scene.triangles.iter().enumerate() {
-            let material = &scene.materials[triangle.material.index()];
-            let positions = scene.corners(TriangleId::new(t));
-            let is_solid = material.alpha_mode == AlphaMode::Opaque && !triangle.is_back_side;
-            if !is_solid || edge_cross(positions) == Vec3::ZERO {
+        for id in scene.fronts() {
+            let (triangle, material) = (&scene.triangles[id.index()], scene.material_of(id));
+            let positions = scene.corners(id);
+            if material.alpha_mode != AlphaMode::Opaque || edge_cross(positions) == Vec3::ZERO {
                 continue;
             }
             let corners = positions.map(|position| {

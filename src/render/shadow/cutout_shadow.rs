@@ -16,7 +16,7 @@ use super::pipeline::{PipelineRecipe, against_depth, culling};
 use super::planar_shadow::SHADOWS;
 use super::real_time::Subject;
 use super::solid::SolidPipelines;
-use crate::base::ids::{MaterialId, TriangleId};
+use crate::base::ids::MaterialId;
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
 use crate::render::scene::materials::material_layout;
@@ -93,14 +93,13 @@ impl Cutouts {
     }
 
     fn of_material(gpu: &Gpu, scene: &Scene, material: MaterialId) -> Option<Self> {
-        let triangles = (0..scene.triangles.len())
-            .filter(|&t| scene.triangles[t].material == material && !scene.triangles[t].is_back_side);
+        let triangles = scene.fronts().filter(|t| scene.triangles[t.index()].material == material);
         let solid_alpha = match scene.materials[material.index()].alpha_mode {
             AlphaMode::Mask { cutoff } => cutoff,
             AlphaMode::Opaque | AlphaMode::Blend => HALF_OPAQUE,
         };
         let corners: Vec<CutoutCorner> = triangles
-            .flat_map(|t| scene.triangles[TriangleId::new(t).index()].vertices)
+            .flat_map(|t| scene.triangles[t.index()].vertices)
             .map(|v| &scene.vertices[v as usize])
             .map(|v| CutoutCorner { position: v.position, solid_alpha, uv: v.uv, colour: v.colour })
             .collect();

@@ -66,9 +66,8 @@ impl ExactRays {
     /// Builds a tree over all triangles but the backs that a bake has written out.
     #[must_use]
     pub fn new(scene: Arc<Scene>) -> Self {
-        let triangles: Vec<Triangle> = (0..scene.triangles.len())
-            .map(TriangleId::new)
-            .filter(|id| !scene.triangles[id.index()].is_back_side)
+        let triangles: Vec<Triangle> = scene
+            .fronts()
             .map(|id| Triangle {
                 id,
                 corners: scene.corners(id).map(Vec3::as_dvec3),
@@ -211,12 +210,7 @@ mod tests {
             Vec3::new(7.1 * angle.cos(), 0.3 * unit_float(hash(i % num_blades)), 7.1 * angle.sin())
         };
         let blades: Vec<[u32; 3]> = (0..num_blades).map(|i| [middle, corner(rim(i + 1)), corner(rim(i))]).collect();
-        let triangle = |vertices| SceneTriangle {
-            vertices,
-            material: MaterialId(0),
-            instance: InstanceId(0),
-            is_back_side: false,
-        };
+        let triangle = |vertices| SceneTriangle { vertices, material: MaterialId(0), instance: InstanceId(0) };
         scene.triangles = blades.into_iter().map(triangle).collect();
         scene
     }

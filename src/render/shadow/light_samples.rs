@@ -102,7 +102,7 @@ struct Surface {
 
 fn surfaces(scene: &Scene) -> Vec<Surface> {
     let place_size = PLACE_SHARE * scene.bounds().extent().max(f32::MIN_POSITIVE);
-    let has_backs = scene.triangles.iter().any(|triangle| triangle.is_back_side);
+    let has_backs = scene.sides.has_backs();
     let mut by_place: BTreeMap<_, Surface> = BTreeMap::new();
     for piece in pieces(scene) {
         let triangle = &scene.triangles[piece[0].index()];
@@ -113,7 +113,7 @@ fn surfaces(scene: &Scene) -> Vec<Surface> {
         // A bake has written the backs of double-sided triangles out.
         let num_sides = if material.double_sided && !has_backs { 2 } else { 1 };
         for side in 0..num_sides {
-            let key = (triangle.instance, triangle.material, triangle.is_back_side, side, place);
+            let key = (triangle.instance, triangle.material, scene.sides.is_back(piece[0]), side, place);
             let surface = by_place.entry(key).or_insert_with(|| Surface::new(group, side == 1));
             piece.iter().for_each(|&id| surface.add(id, area_of(scene.corners(id))));
         }
@@ -130,7 +130,7 @@ fn pieces(scene: &Scene) -> Vec<Vec<TriangleId>> {
             continue;
         }
         let id = TriangleId::new(t);
-        let surface = (triangle.instance, triangle.material, triangle.is_back_side);
+        let surface = (triangle.instance, triangle.material, scene.sides.is_back(id));
         let corners = scene.corners(id).map(|corner| (surface, corner.to_array().map(f32::to_bits)));
         let mut touched: Vec<usize> =
             corners.iter().filter_map(|corner| piece_of_corner.get(corner).copied()).collect();

@@ -59,7 +59,7 @@ fn duplicates_count_whichever_corner_comes_first_but_backs_do_not() {
     let mut scene = soup(&[[O, X, Y], [X, Y, O], [O, Y, X]]);
     assert_eq!((count(&scene, FindingKind::DuplicateTriangle), count(&scene, FindingKind::NonManifoldEdge)), (1, 3));
     assert_eq!(count(&scene, FindingKind::CoplanarOverlap), 0, "duplicates are counted once");
-    scene.triangles[1].is_back_side = true;
+    scene.sides.add_back(TriangleId(1));
     assert_eq!(count(&scene, FindingKind::DuplicateTriangle), 0);
 }
 

@@ -27,8 +27,10 @@ impl Welded {
             }
             number[v as usize] = positions.len() as u32 - 1;
         }
-        let fronts = scene.triangles.iter().filter(|triangle| !triangle.is_back_side);
-        let triangles = fronts.map(|triangle| triangle.vertices.map(|v| number[v as usize])).collect();
+        let triangles = scene
+            .fronts()
+            .map(|triangle| scene.triangles[triangle.index()].vertices.map(|v| number[v as usize]))
+            .collect();
         Self { positions, triangles }
     }
 

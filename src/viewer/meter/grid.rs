@@ -109,16 +109,14 @@ fn flat_part(scene: &Scene, pick: &Pick) -> Vec<TriangleId> {
     let tolerance = SAME_PLANE * scene.bounds().extent();
     let front = normal_of(scene.corners(pick.triangle));
     let instance = scene.triangles[pick.triangle.index()].instance;
-    let all = (0..scene.triangles.len()).map(TriangleId::new);
     let lies_there = |&t: &TriangleId| {
         let corners = scene.corners(t);
         let triangle = &scene.triangles[t.index()];
         triangle.instance == instance
-            && !triangle.is_back_side
             && normal_of(corners).dot(front) > SAME_NORMAL
             && corners.iter().all(|&corner| (corner - pick.point).dot(front).abs() < tolerance)
     };
-    all.filter(lies_there).collect()
+    scene.fronts().filter(lies_there).collect()
 }
 
 /// Axes in the plane, one of them level, so that rows of the grid are rows for somebody who stands there.

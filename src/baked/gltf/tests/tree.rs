@@ -47,7 +47,7 @@ fn light_comes_back_bit_by_bit_from_a_turned_and_mirrored_node_and_the_mesh_stan
     stored.scene.nodes = tree();
     let Ok(back) = from_scene(reloaded(&to_glb(&stored, 9.5).expect("small"))) else { panic!("the light is lost") };
     let pairs = sorted_triangles(&stored.scene).into_iter().zip(sorted_triangles(&back.scene));
-    for (a, b) in pairs {
+    for ((_, a), (_, b)) in pairs {
         for v in a.vertices.map(|v| v as usize) {
             let place = stored.scene.vertices[v].position;
             let twin = |w: &u32| (back.scene.vertices[*w as usize].position - place).length() < 1e-5;
@@ -84,7 +84,7 @@ fn a_node_that_flattens_its_mesh_is_brought_back_to_the_world() {
         Transform::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0, 1.0, 0.0] };
     let stored = Scene { nodes, ..scene() };
     let back = reloaded(&scene_to_glb(&stored).expect("small"));
-    for (a, b) in sorted_triangles(&stored).into_iter().zip(sorted_triangles(&back)) {
+    for ((_, a), (_, b)) in sorted_triangles(&stored).into_iter().zip(sorted_triangles(&back)) {
         for (v, w) in a.vertices.iter().zip(&b.vertices) {
             let [a, b] = [stored.vertices[*v as usize].position, back.vertices[*w as usize].position];
             assert!((a - b).length() < 1e-5, "{a} and {b}");

@@ -26,7 +26,7 @@ pub(crate) struct Geometry {
     /// Joints and weights of each of `vertices`; empty if the primitive is not skinned.
     pub influences: Vec<Vec<Influence>>,
     /// Whether it is the back of a double-sided surface, which a bake writes as triangles of its own.
-    pub is_back_side: bool,
+    pub is_back: bool,
 }
 
 impl Geometry {
@@ -64,7 +64,7 @@ impl Geometry {
             has_normals,
             irradiance: attributes.irradiance(&rows)?,
             influences: influences::influences(&attributes, &rows)?,
-            is_back_side: is_marked_back_side(&primitive.extras),
+            is_back: is_marked_back_side(&primitive.extras),
         }))
     }
 }
@@ -162,6 +162,6 @@ mod tests {
         assert_eq!(scene.irradiance[0].name, "_IRRADIANCE_DIRECT_0");
         assert_eq!(scene.irradiance[0].values[2..4], [Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)]);
         assert_eq!(scene.irradiance[0].values.len(), scene.vertices.len());
-        assert_eq!([false, true], [0, 1].map(|t: usize| scene.triangles[t].is_back_side));
+        assert_eq!([false, true], [0, 1].map(|t: usize| scene.sides.is_back(TriangleId::new(t))));
     }
 }

@@ -4,7 +4,7 @@ use glam::{DAffine3, Vec3};
 
 use super::geometry::Geometry;
 use super::normals::normal_matrix;
-use crate::base::ids::{InstanceId, MaterialId};
+use crate::base::ids::{InstanceId, MaterialId, TriangleId};
 use crate::scene::gltf::error::Cause;
 use crate::scene::{Instance, Scene, Triangle, Vertex, VertexAttribute, is_degenerate, is_placeable, normal_of};
 
@@ -37,7 +37,10 @@ pub(crate) fn place(
             continue;
         }
         set_missing_normals(scene, vertices, normal_of(positions));
-        scene.triangles.push(Triangle { vertices, material, instance, is_back_side: geometry.is_back_side });
+        if geometry.is_back {
+            scene.sides.add_back(TriangleId::new(scene.triangles.len()));
+        }
+        scene.triangles.push(Triangle { vertices, material, instance });
     }
     for vertex in scene.vertices[first..].iter_mut().filter(|vertex| vertex.normal == Vec3::ZERO) {
         vertex.normal = Vec3::Y;

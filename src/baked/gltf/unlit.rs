@@ -13,14 +13,14 @@ use crate::scene::{Material, Scene};
 
 /// Light at one exposure.
 #[derive(Clone, Copy)]
-pub(super) struct Look<'a> {
+pub(super) struct UnlitAppearance<'a> {
     /// The light.
     pub light: &'a VertexLight,
     /// Displayed = radiance x this.
     pub exposure: f32,
 }
 
-impl Look<'_> {
+impl UnlitAppearance<'_> {
     /// COLOR_0 of a vertex: display-referred linear colour and the alpha of its paint.
     pub fn colour(&self, scene: &Scene, material: &Material, vertex: u32) -> Vec4 {
         let v = vertex as usize;

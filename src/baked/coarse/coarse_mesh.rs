@@ -1,0 +1,90 @@
+//! The coarse mesh: its triangles, the tiles of their light and the elements in these.
+
+use glam::UVec2;
+
+use super::bisection::Forest;
+use super::coarsen::{Whole, coarsen};
+use super::tiles::{Filling, Layout};
+use crate::scene::{Scene, Triangle};
+
+/// Texels across and down at most: 256 MiB of light.
+const MAX_SIDE: u32 = 5792;
+/// Texels for each element at most: more give fewer triangles, which hardly draw sooner.
+const MAX_TEXELS_PER_ELEMENT: u64 = 32;
+/// Coarse triangles for each element at most: more than that are not worth a texture.
+const WORTH_WHILE: f32 = 0.75;
+
+/// A mesh of fewer triangles over the vertices of a scene.
+pub(crate) struct CoarseMesh {
+    /// Triangles of the scene's vertices; first those with tiles, then triangles of the scene as they are.
+    pub triangles: Vec<Triangle>,
+    /// The tiles of those that have one.
+    pub tiles: Vec<Tile>,
+    /// Texels across and down the texture.
+    pub side: u32,
+    /// The elements in tiles.
+    pub elements: Vec<ElementTexels>,
+    /// Index of the element that each texel is of, row by row.
+    pub element_of: Vec<u32>,
+    /// Texels that the long sides of tiles ask for beside them.
+    pub beyond: Vec<UVec2>,
+}
+
+/// Where in the texture the light of a triangle is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Tile {
+    /// The texel of its first corner.
+    pub origin: UVec2,
+    /// Texels from there to its second corner, across, and to its third, down.
+    pub side: u32,
+}
+
+/// An element in a tile.
+pub(crate) struct ElementTexels {
+    /// Its vertices in the scene.
+    pub vertices: [u32; 3],
+    /// The texels of its corners.
+    pub corners: [UVec2; 3],
+}
+
+impl CoarseMesh {
+    /// The coarse mesh of a scene, where it is worth while and the texture no wider or higher than `max_side`.
+    pub fn new(scene: &Scene, max_side: u32) -> Option<Self> {
+        let forest = Forest::new(scene);
+        let num_elements = scene.triangles.len();
+        // Most have far fewer texels than the most.
+        let per_element = (2 * u64::from(MAX_SIDE).pow(2) / num_elements.max(1) as u64).min(MAX_TEXELS_PER_ELEMENT);
+        let mut wholes = coarsen(scene, &forest, per_element);
+        if wholes.len() as f32 >= WORTH_WHILE * num_elements as f32 {
+            return None;
+        }
+        // Those of one element keep it.
+        wholes.sort_by_key(|whole| forest.nodes[whole.node as usize].halves.is_none());
+        let num_tiles = wholes.partition_point(|whole| forest.nodes[whole.node as usize].halves.is_some());
+        let layout = Layout::new(&wholes[..num_tiles]);
+        if layout.side > max_side.min(MAX_SIDE) {
+            return None;
+        }
+        let Filling { elements, element_of, beyond, .. } = Filling::new(&forest, &wholes[..num_tiles], &layout);
+        let vertices_of = |triangle: u32| scene.triangles[triangle as usize].vertices;
+        let triangle = |whole: &Whole| {
+            let of = forest.some_element(whole.node);
+            Triangle { vertices: forest.nodes[whole.node as usize].corners, ..scene.triangles[of as usize] }
+        };
+        Some(Self {
+            triangles: wholes.iter().map(triangle).collect(),
+            tiles: wholes[..num_tiles]
+                .iter()
+                .zip(&layout.origins)
+                .map(|(whole, &origin)| Tile { origin, side: 1 << whole.level })
+                .collect(),
+            side: layout.side,
+            elements: elements
+                .into_iter()
+                .map(|e| ElementTexels { vertices: vertices_of(e.triangle), corners: e.corners })
+                .collect(),
+            element_of,
+            beyond,
+        })
+    }
+}

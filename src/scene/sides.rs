@@ -1,0 +1,126 @@
+//! The sides of surfaces: which triangles are backs, and whose.
+//!
+//! A double-sided triangle of a file is one triangle, which rays and shadows meet from both sides. A bake stores light on
+//! either side, so it writes the back as a triangle of its own, over vertices with flipped normals and in the opposite winding.
+//! Rays, casters of shadows and collision must meet the surface once: they take [`Scene::fronts`].
+
+use glam::Vec3;
+
+use super::model::Scene;
+use crate::base::ids::TriangleId;
+
+/// Which triangles of a scene are the backs of others.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Sides {
+    /// By triangle `[t]`; triangles beyond its end are fronts.
+    is_back: Vec<bool>,
+    /// Fronts with their backs, in the order of the fronts.
+    pairs: Vec<(TriangleId, Back)>,
+}
+
+/// The back of a front triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Back {
+    /// The triangle.
+    pub triangle: TriangleId,
+    /// Corner of the front at which the first corner of the back lies. The others follow the opposite way: corner `i` of the
+    /// back lies at corner `first - i` (modulo 3) of the front.
+    pub first: usize,
+}
+
+impl Back {
+    /// The back with corners `[a, c, b]` of a front with corners `[a, b, c]`.
+    #[must_use]
+    pub fn flipped(triangle: TriangleId) -> Self {
+        Self { triangle, first: 0 }
+    }
+
+    /// Barycentric coordinates on the back of the point with these barycentric coordinates on the front.
+    #[must_use]
+    pub fn weights(&self, on_front: Vec3) -> Vec3 {
+        Vec3::from_array(std::array::from_fn(|i| on_front[(self.first + 3 - i) % 3]))
+    }
+}
+
+impl Sides {
+    /// Makes a triangle a back, whose front is not known.
+    pub fn add_back(&mut self, triangle: TriangleId) {
+        let num_known = self.is_back.len().max(triangle.index() + 1);
+        self.is_back.resize(num_known, false);
+        self.is_back[triangle.index()] = true;
+    }
+
+    /// Makes triangles the backs of fronts.
+    pub fn add_pairs(&mut self, pairs: impl IntoIterator<Item = (TriangleId, Back)>) {
+        for (front, back) in pairs {
+            self.add_back(back.triangle);
+            self.pairs.push((front, back));
+        }
+        self.pairs.sort_unstable_by_key(|(front, _)| *front);
+    }
+
+    /// The triangle is the back of a double-sided surface.
+    #[must_use]
+    pub fn is_back(&self, triangle: TriangleId) -> bool {
+        self.is_back.get(triangle.index()).is_some_and(|&is_back| is_back)
+    }
+
+    /// There is a back.
+    #[must_use]
+    pub fn has_backs(&self) -> bool {
+        self.is_back.contains(&true)
+    }
+
+    /// The back of a front triangle. `None` if it has none, or none that is known.
+    #[must_use]
+    pub fn back_of(&self, front: TriangleId) -> Option<Back> {
+        let found = self.pairs.binary_search_by_key(&front, |(front, _)| *front).ok()?;
+        Some(self.pairs[found].1)
+    }
+
+    /// Number of backs whose front is not known.
+    #[must_use]
+    pub fn num_unpaired(&self) -> usize {
+        self.is_back.iter().filter(|&&is_back| is_back).count() - self.pairs.len()
+    }
+}
+
+impl Scene {
+    /// The triangles that are not backs: every surface once.
+    pub fn fronts(&self) -> impl Iterator<Item = TriangleId> + '_ {
+        (0..self.triangles.len()).map(TriangleId::new).filter(|&triangle| !self.sides.is_back(triangle))
+    }
+
+    /// The triangle that stores the light of one side of a front, and barycentric coordinates there.
+    #[must_use]
+    pub fn on_side(&self, front: TriangleId, weights: Vec3, is_front: bool) -> (TriangleId, Vec3) {
+        match self.sides.back_of(front) {
+            Some(back) if !is_front => (back.triangle, back.weights(weights)),
+            _ => (front, weights),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn triangles_are_fronts_unless_they_are_added_as_backs() {
+        let mut sides = Sides::default();
+        assert!(!sides.has_backs() && !sides.is_back(TriangleId(7)));
+        sides.add_back(TriangleId(3));
+        sides.add_pairs([(TriangleId(5), Back::flipped(TriangleId(6))), (TriangleId(1), Back::flipped(TriangleId(2)))]);
+        let backs: Vec<u32> = (0..9).filter(|&t| sides.is_back(TriangleId(t))).collect();
+        assert_eq!((backs, sides.num_unpaired()), (vec![2, 3, 6], 1));
+        assert_eq!(sides.back_of(TriangleId(5)), Some(Back::flipped(TriangleId(6))));
+        assert_eq!(sides.back_of(TriangleId(3)), None);
+    }
+
+    #[test]
+    fn weights_follow_the_corners_of_the_back() {
+        let weights = Vec3::new(0.1, 0.2, 0.7);
+        assert_eq!(Back::flipped(TriangleId(0)).weights(weights), Vec3::new(0.1, 0.7, 0.2));
+        assert_eq!(Back { triangle: TriangleId(0), first: 2 }.weights(weights), Vec3::new(0.7, 0.2, 0.1));
+    }
+}
