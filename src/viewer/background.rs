@@ -1,17 +1,17 @@
-//! Threads that work behind the window: whenever a frame wants a processor, they give it up.
+//! Threads that work in the background, with the lowest priority, so that frames are drawn first.
 
 use thread_priority::ThreadPriority;
 
-/// The calling thread, and threads that it will start, give way to all others.
-pub fn give_way() {
+/// Gives the calling thread, and those that it starts, the lowest priority.
+pub fn lower_priority() {
     if let Err(error) = ThreadPriority::Min.set_for_current() {
         log::debug!("a thread keeps its priority: {error:?}");
     }
 }
 
-/// The threads that share heavy work give way too; only the first call of a process decides.
-pub fn share_work_in_background() {
-    if let Err(error) = rayon::ThreadPoolBuilder::new().start_handler(|_| give_way()).build_global() {
-        log::debug!("shared work keeps its priority: {error}");
+/// Gives the threads of rayon the lowest priority; without effect if rayon has started already.
+pub fn lower_priority_of_rayon() {
+    if let Err(error) = rayon::ThreadPoolBuilder::new().start_handler(|_| lower_priority()).build_global() {
+        log::debug!("the threads of rayon keep their priority: {error}");
     }
 }

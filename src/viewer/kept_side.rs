@@ -5,9 +5,9 @@ use egui::epaint::Primitive;
 use egui::{ClippedPrimitive, Rect};
 use egui_wgpu::ScreenDescriptor;
 
-use super::painter::{texture as new_texture, view_of};
-use super::screen::{EMPTY, PanelShapes, begin_pass};
 use crate::gpu::Gpu;
+use crate::viewer::picture::texture::{new_texture, view_of};
+use crate::viewer::window::panel_shapes::{EMPTY, PanelShapes, begin_pass};
 
 /// The side panel as it was painted last.
 #[derive(Default)]

@@ -2,11 +2,11 @@
 
 use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
 
-use super::motion::Motion;
-use super::painter::{texture, view_of};
-use super::sight::Sight;
 use crate::gpu::Gpu;
 use crate::render::{RenderSettings, Renderer};
+use crate::viewer::motion::Motion;
+use crate::viewer::picture::content::PictureContent;
+use crate::viewer::picture::texture::{new_texture, view_of};
 
 /// Draws quick pictures into textures of one format.
 pub struct Quick {
@@ -50,10 +50,10 @@ impl Quick {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
-        sight: &Sight,
-        settings: &RenderSettings,
+        content: &PictureContent,
+        render_settings: &RenderSettings,
     ) {
-        self.renderer.draw(gpu, encoder, target, sight.size, &sight.scene, &sight.view, settings);
+        self.renderer.draw(gpu, encoder, target, content.size, &content.scene, &content.view, render_settings);
     }
 
     /// Draws as large as there is time for; what is half as wide and high is enlarged into `target`.
@@ -62,18 +62,18 @@ impl Quick {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
-        sight: &Sight,
-        settings: &RenderSettings,
+        content: &PictureContent,
+        render_settings: &RenderSettings,
     ) {
         if self.motion.is_full() {
-            return self.draw(gpu, encoder, target, sight, settings);
+            return self.draw(gpu, encoder, target, content, render_settings);
         }
-        let size = sight.size.map(|side| side.div_ceil(2));
+        let size = content.size.map(|side| side.div_ceil(2));
         let (small, _) = match self.target.take() {
             Some(last) if last.1 == size => self.target.insert(last),
-            _ => self.target.insert((view_of(&texture(gpu, size, self.format)), size)),
+            _ => self.target.insert((view_of(&new_texture(gpu, size, self.format)), size)),
         };
-        self.renderer.draw(gpu, encoder, small, size, &sight.scene, &sight.view, settings);
+        self.renderer.draw(gpu, encoder, small, size, &content.scene, &content.view, render_settings);
         self.blitter.copy(&gpu.device, encoder, small, target);
     }
 }

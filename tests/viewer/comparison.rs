@@ -7,22 +7,23 @@ use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{RenderSettings, ShadowScene, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::builtin;
-use hemicube::viewer::canvas::Canvas;
-use hemicube::viewer::sight::{Comparison, Detail, Rival, Sight};
+use hemicube::viewer::picture::canvas::Canvas;
+use hemicube::viewer::picture::content::{Detail, PictureContent};
+use hemicube::viewer::settings::comparison::{ComparedShadows, ComparisonLayout};
 use wgpu::{CommandEncoderDescriptor, PollType, TextureFormat};
 
 use crate::support::device::gpu;
 
-fn sight(gpu: &Gpu, comparison: Option<Comparison>) -> Sight {
+fn content(gpu: &Gpu, layout: Option<ComparisonLayout>) -> PictureContent {
     let dark = BakedScene::dark(builtin::cornell());
     let settings = ShadowSettings::new(ShadowTechnique::Map);
-    Sight {
+    PictureContent {
         view: View::from_camera(&dark.scene.cameras[0], 1.0),
         scene: Arc::new(SceneBuffers::new(gpu, &dark)),
         shadows: Arc::new(ShadowScene::new(gpu, Arc::new(dark.scene))),
         light: 0,
         settings: RenderSettings { shadows: Some(settings.clone()), ..RenderSettings::default() },
-        rival: comparison.map(|comparison| Rival { settings, comparison }),
+        compared_shadows: layout.map(|layout| ComparedShadows { settings, layout }),
         overlay: None,
         size: [32; 2],
     }
@@ -32,18 +33,18 @@ fn sight(gpu: &Gpu, comparison: Option<Comparison>) -> Sight {
 fn a_scene_whose_shadows_were_compared_is_let_go_when_another_is_shown() {
     let Some(gpu) = gpu() else { return };
     let mut canvas = Canvas::new(gpu, TextureFormat::Rgba8Unorm);
-    let mut show = |sight: Sight| {
+    let mut show = |content: PictureContent| {
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-        canvas.draw(gpu, &mut encoder, sight, Detail::Plain, None);
+        canvas.draw(gpu, &mut encoder, content, Detail::Plain, None);
         gpu.queue.submit([encoder.finish()]);
     };
-    for comparison in [Comparison::Split, Comparison::Difference] {
-        let compared = sight(gpu, Some(comparison));
+    for layout in [ComparisonLayout::Split, ComparisonLayout::Difference] {
+        let compared = content(gpu, Some(layout));
         let shadows = Arc::downgrade(&compared.shadows);
         show(compared);
         assert!(shadows.upgrade().is_some(), "what is shown is held");
-        show(sight(gpu, None));
-        assert!(shadows.upgrade().is_none(), "{comparison:?} holds its scene");
+        show(content(gpu, None));
+        assert!(shadows.upgrade().is_none(), "{layout:?} holds its scene");
     }
 }
 
@@ -63,7 +64,7 @@ fn shadows_that_are_switched_off_give_their_textures_back() {
     let mut canvas = Canvas::new(gpu, TextureFormat::Rgba8Unorm);
     let size = [1920, 1200];
     let mut num_gathering_with = |technique| {
-        let mut shown = sight(gpu, None);
+        let mut shown = content(gpu, None);
         shown.size = size;
         shown.settings.shadows = technique;
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());

@@ -11,13 +11,13 @@ use hemicube::gpu::readback::read_texture;
 use hemicube::patch::MeshSettings;
 use hemicube::render::{Picture, Shading};
 use hemicube::scene::{Scene, builtin};
-use hemicube::viewer::camera::Eye;
+use hemicube::viewer::camera::pose::CameraPose;
 use hemicube::viewer::kept_side::KeptSide;
-use hemicube::viewer::memory::Memory;
-use hemicube::viewer::panels::{
-    BakeFacts, CameraFacts, Facts, LightState, Panels, PictureFacts, SceneFacts, Tab, theme,
-};
-use hemicube::viewer::screen::PanelShapes;
+use hemicube::viewer::panels::{BakeFacts, CameraFacts, Facts, Panels, PictureFacts, SceneFacts, theme};
+use hemicube::viewer::preferences::Preferences;
+use hemicube::viewer::session::light_state::LightState;
+use hemicube::viewer::settings::view::Tab;
+use hemicube::viewer::window::panel_shapes::PanelShapes;
 use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
 use crate::support::device::gpu;
@@ -39,7 +39,7 @@ fn facts(scene: &Scene) -> Facts<'_> {
             ..BakeFacts::default()
         },
         camera: CameraFacts {
-            pose: Some(Eye::looking_along(Vec3::new(2.8, 1.65, 2.0), Vec3::NEG_Z)),
+            pose: Some(CameraPose::looking_along(Vec3::new(2.8, 1.65, 2.0), Vec3::NEG_Z)),
             is_walking: true,
             speed: 2.0,
             bookmarks: vec![1, 3],
@@ -57,9 +57,9 @@ fn facts(scene: &Scene) -> Facts<'_> {
 }
 
 fn panels(scene: &Scene, sections: &[(&str, bool)]) -> Panels {
-    let mut memory = Memory { has_seen_tour: true, ..Memory::default() };
-    memory.sections = sections.iter().map(|&(title, is_open)| (title.to_owned(), is_open)).collect();
-    let mut panels = Panels::new(Quality::Medium, memory);
+    let mut preferences = Preferences { has_seen_tour: true, ..Preferences::default() };
+    preferences.sections = sections.iter().map(|&(title, is_open)| (title.to_owned(), is_open)).collect();
+    let mut panels = Panels::new(Quality::Medium, preferences);
     panels.light.reset_groups(scene);
     panels
 }
@@ -148,10 +148,10 @@ fn a_side_that_is_kept_looks_as_if_painted_anew() {
         let pictures = [0, 1].map(|which| {
             let panels = &mut every[which];
             match step {
-                3 => panels.memory.tab = Tab::Place,
+                3 => panels.preferences.tab = Tab::Place,
                 5 => panels.light.shading = Shading::FalseColour,
-                7 => panels.memory.is_open = false,
-                8 => panels.memory.is_open = true,
+                7 => panels.preferences.is_open = false,
+                8 => panels.preferences.is_open = true,
                 10 => panels.shows_help = true,
                 _ => {}
             }
@@ -175,7 +175,7 @@ fn the_panels_look_as_they_did() {
         (Tab::Place, "panels_place"),
     ] {
         let mut panels = panels(&scene, &[]);
-        panels.memory.tab = tab;
+        panels.preferences.tab = tab;
         panels.light.shading = Shading::FalseColour;
         assert_snapshot(name, &side_picture(gpu, &mut panels, &facts(&scene)));
     }
@@ -243,7 +243,7 @@ fn random_input_never_upsets_the_panels() {
             (facts.scene.open, facts.camera.pose) = (None, None);
         }
         if dice.below(30) == 0 {
-            panels.memory.tab = [Tab::Picture, Tab::Solution, Tab::Meter, Tab::Place][dice.below(4)];
+            panels.preferences.tab = [Tab::Picture, Tab::Solution, Tab::Meter, Tab::Place][dice.below(4)];
         }
         let mut asked = Vec::new();
         let output = ctx.run_ui(input(events, size), |ui| asked = panels.ui(ui, &facts).0);

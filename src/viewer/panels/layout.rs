@@ -4,7 +4,6 @@ use std::collections::BTreeSet;
 
 use egui::{Rect, RichText, Ui};
 
-use super::action::Action;
 use super::chrome::message::{self, Notice, Trouble};
 use super::chrome::widgets::section;
 use super::chrome::{help, status, theme, tour};
@@ -16,14 +15,16 @@ use super::picture::{light, shadows, view};
 use super::scene::open::OpenDialog;
 use super::scene::{cameras, objects, open, output, statistics};
 use super::solution::{advice, bake, time_machine};
-use super::state::{AdviceLocation, GridSettings, ReplaySettings, Selection};
-use super::tab::{TABS, Tab};
-use super::tool::{TOOLS, Tool};
 use crate::bake::Quality;
 use crate::base::ids::InstanceId;
 use crate::render::Shading;
-use crate::viewer::memory::Memory;
-use crate::viewer::settings::LightSettings;
+use crate::viewer::action::Action;
+use crate::viewer::preferences::Preferences;
+use crate::viewer::settings::light::LightSettings;
+use crate::viewer::settings::tool::GridSettings;
+use crate::viewer::settings::tool::{TOOLS, Tool};
+use crate::viewer::settings::view::{AdviceLocation, ReplaySettings, Selection};
+use crate::viewer::settings::view::{TABS, Tab};
 
 /// Width of the side panel, points.
 pub const WIDTH: f32 = 312.0;
@@ -35,7 +36,7 @@ pub struct Panels {
     /// Preset of the next bake.
     pub quality: Quality,
     /// What is remembered between runs.
-    pub memory: Memory,
+    pub preferences: Preferences,
     /// What a click in the picture does.
     pub tool: Tool,
     /// Which instances are seen and chosen.
@@ -62,11 +63,11 @@ pub struct Panels {
 impl Panels {
     /// Everything as the user left it.
     #[must_use]
-    pub fn new(quality: Quality, memory: Memory) -> Self {
+    pub fn new(quality: Quality, preferences: Preferences) -> Self {
         Self {
-            light: LightSettings { lux_scale: memory.lux_scale, ..LightSettings::default() },
+            light: LightSettings { lux_scale: preferences.lux_scale, ..LightSettings::default() },
             quality,
-            memory,
+            preferences,
             tool: Tool::Look,
             selection: Selection::default(),
             shown_advice: None,
@@ -93,15 +94,15 @@ impl Panels {
     /// Times of passes are on show.
     #[must_use]
     pub fn shows_times(&self) -> bool {
-        let is_unfolded = self.memory.sections.get("Shadows").copied().unwrap_or(false);
-        self.light.is_real_time && self.memory.is_open && self.memory.tab == Tab::Picture && is_unfolded
+        let is_unfolded = self.preferences.sections.get("Shadows").copied().unwrap_or(false);
+        self.light.is_real_time && self.preferences.is_open && self.preferences.tab == Tab::Picture && is_unfolded
     }
 
     /// Lays out all panels; what the user asked for, and what is left for the picture.
     pub fn ui(&mut self, ui: &mut Ui, facts: &Facts<'_>) -> (Vec<Action>, Rect) {
         let mut actions = Vec::new();
         egui::Panel::bottom("status").frame(theme::bar()).show(ui, |ui| status::status_ui(ui, facts));
-        if self.memory.is_open {
+        if self.preferences.is_open {
             let side = egui::Panel::right("side").exact_size(WIDTH).resizable(false).frame(theme::side());
             side.show(ui, |ui| self.side_ui(ui, facts, &mut actions));
         }
@@ -110,11 +111,11 @@ impl Panels {
         message::notice_ui(ui.ctx(), &mut self.notice);
         message::trouble_ui(ui.ctx(), &mut self.trouble, &mut actions);
         if facts.scene.open.is_some() {
-            tour::tour_ui(ui.ctx(), free, &mut self.memory.has_seen_tour);
+            tour::tour_ui(ui.ctx(), free, &mut self.preferences.has_seen_tour);
         }
         open::open_ui(ui.ctx(), &mut self.dialog, &mut actions);
         help::help_ui(ui.ctx(), &mut self.shows_help);
-        self.memory.lux_scale = self.light.lux_scale;
+        self.preferences.lux_scale = self.light.lux_scale;
         (actions, free)
     }
 
@@ -133,11 +134,13 @@ impl Panels {
     fn side_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
         self.heading_ui(ui, facts, actions);
         ui.separator();
-        egui::ScrollArea::vertical().id_salt(self.memory.tab).auto_shrink(false).show(ui, |ui| match self.memory.tab {
-            Tab::Picture => self.picture_tab_ui(ui, facts, actions),
-            Tab::Solution => self.solution_tab_ui(ui, facts, actions),
-            Tab::Meter => self.meter_tab_ui(ui, facts, actions),
-            Tab::Place => self.place_tab_ui(ui, facts, actions),
+        egui::ScrollArea::vertical().id_salt(self.preferences.tab).auto_shrink(false).show(ui, |ui| {
+            match self.preferences.tab {
+                Tab::Picture => self.picture_tab_ui(ui, facts, actions),
+                Tab::Solution => self.solution_tab_ui(ui, facts, actions),
+                Tab::Meter => self.meter_tab_ui(ui, facts, actions),
+                Tab::Place => self.place_tab_ui(ui, facts, actions),
+            }
         });
     }
 
@@ -162,7 +165,7 @@ impl Panels {
             ui.spacing_mut().button_padding.x = 6.0;
             for (tool, label, hint) in TOOLS {
                 if ui.selectable_label(self.tool == tool, label).on_hover_text(hint).clicked() {
-                    actions.push(Action::Take(tool));
+                    actions.push(Action::SelectTool(tool));
                 }
             }
         });
@@ -170,14 +173,14 @@ impl Panels {
         ui.columns(TABS.len(), |columns| {
             for (column, (tab, label, hint)) in columns.iter_mut().zip(TABS) {
                 column.vertical_centered_justified(|ui| {
-                    ui.selectable_value(&mut self.memory.tab, tab, label).on_hover_text(hint);
+                    ui.selectable_value(&mut self.preferences.tab, tab, label).on_hover_text(hint);
                 });
             }
         });
     }
 
     fn picture_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
-        let Self { light, tool, memory: Memory { sections, wire, traces_stills, .. }, .. } = self;
+        let Self { light, tool, preferences: Preferences { sections, wire, traces_stills, .. }, .. } = self;
         section(ui, sections, "View", true, |ui| {
             view::view_ui(ui, light, wire, traces_stills, facts, actions);
         });
@@ -186,7 +189,7 @@ impl Panels {
     }
 
     fn solution_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
-        let sections = &mut self.memory.sections;
+        let sections = &mut self.preferences.sections;
         let is_dimmed = self.light.groups.iter().any(|group| !group.is_as_baked());
         section(ui, sections, "Bake", true, |ui| bake::bake_ui(ui, &mut self.quality, is_dimmed, facts, actions));
         section(ui, sections, "Time machine", true, |ui| {
@@ -198,7 +201,7 @@ impl Panels {
     }
 
     fn meter_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
-        let sections = &mut self.memory.sections;
+        let sections = &mut self.preferences.sections;
         section(ui, sections, "Lux meter", true, |ui| {
             lux_meter::lux_meter_ui(ui, &mut self.grid, &self.light.groups, self.tool, facts, actions);
         });
@@ -208,7 +211,7 @@ impl Panels {
     }
 
     fn place_tab_ui(&mut self, ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
-        let Self { selection, memory: Memory { sections, picture, recent, .. }, .. } = self;
+        let Self { selection, preferences: Preferences { sections, picture, recent, .. }, .. } = self;
         section(ui, sections, "Cameras", true, |ui| cameras::cameras_ui(ui, facts, actions));
         section(ui, sections, "Scene", true, |ui| objects::objects_ui(ui, selection, facts, actions));
         section(ui, sections, "Output", false, |ui| output::output_ui(ui, picture, facts, actions));

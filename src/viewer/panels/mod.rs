@@ -1,11 +1,10 @@
 //! The panels beside and over the picture: plain functions that turn [`Facts`] (what is shown) and [`Panels`] (what the
-//! user has set) into widgets, and clicks into [`Action`]s.
+//! user has set) into widgets, and clicks into [`Action`](super::action::Action)s.
 //!
 //! The panels have no access to the window, the device or the scene. Each section is a file with one `*_ui` function; the
 //! sections of a page of the side panel share a room: `picture`, `solution`, `measurement`, `scene`. `overlay` is drawn over the
 //! picture, `chrome` is the rest of the window.
 
-mod action;
 mod chrome;
 mod facts;
 mod layout;
@@ -14,19 +13,12 @@ mod overlay;
 mod picture;
 mod scene;
 mod solution;
-mod state;
-mod tab;
-mod tool;
 
-pub use action::Action;
 pub use chrome::message::{Notice, Trouble};
 pub use chrome::theme;
-pub use facts::{BakeFacts, CameraFacts, Facts, LightState, MeasurementFacts, PictureFacts, SceneFacts, ShadowFacts};
+pub use facts::{BakeFacts, CameraFacts, Facts, MeasurementFacts, PictureFacts, SceneFacts, ShadowFacts};
 pub use layout::Panels;
 pub use scene::open::OpenDialog;
-pub use state::{AdviceLocation, GridSettings, ReplaySettings, Selection};
-pub use tab::Tab;
-pub use tool::Tool;
 
 #[cfg(test)]
 mod tests;

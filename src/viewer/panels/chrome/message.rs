@@ -4,9 +4,9 @@ use std::time::{Duration, Instant};
 
 use egui::{Align2, Area, Frame, Id, Order, Rect, RichText, Ui};
 
-use super::super::action::Action;
-use super::super::facts::LightState;
 use super::theme;
+use crate::viewer::action::Action;
+use crate::viewer::session::light_state::LightState;
 
 /// How long a notice stays.
 const NOTICE_TIME: Duration = Duration::from_secs(4);

@@ -3,8 +3,8 @@
 use egui::{Align, Layout, RichText, Ui};
 
 use super::super::facts::Facts;
-use super::super::facts::LightState;
 use super::theme;
+use crate::viewer::session::light_state::LightState;
 
 pub fn status_ui(ui: &mut Ui, facts: &Facts<'_>) {
     ui.horizontal(|ui| {

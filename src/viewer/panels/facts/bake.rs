@@ -1,11 +1,9 @@
 //! Facts about the light of the open scene: the running bake, the finished bake and its recording.
 
-use std::time::Duration;
-
 use crate::bake::{BakeSettings, Report};
-use crate::base::progress::Stage;
 use crate::patch::MeshSettings;
-use crate::viewer::replay::Recording;
+use crate::viewer::session::light_state::LightState;
+use crate::viewer::solution::recording::Recording;
 
 /// What the panels show of the bake.
 #[derive(Clone, Default)]
@@ -24,32 +22,4 @@ pub struct BakeFacts<'a> {
     pub recording: Option<&'a Recording>,
     /// A bake is being recorded.
     pub is_recording: bool,
-}
-
-/// State of the light of the open scene.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub enum LightState {
-    /// No scene is open.
-    #[default]
-    Nothing,
-    /// A scene is being loaded or baked.
-    Working {
-        /// The current stage.
-        stage: Stage,
-        /// The part of the stage that is done, 0..1.
-        done: f32,
-        /// Time since the work began.
-        elapsed: Duration,
-        /// The user has cancelled it.
-        is_cancelled: bool,
-    },
-    /// The file stores its light.
-    Stored,
-    /// The bake has ended.
-    Baked {
-        /// Duration of the bake.
-        elapsed: Duration,
-    },
-    /// There is no light: the last bake failed, or none was started.
-    Dark,
 }

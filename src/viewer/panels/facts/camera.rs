@@ -2,13 +2,13 @@
 
 use glam::Vec3;
 
-use crate::viewer::camera::Eye;
+use crate::viewer::camera::pose::CameraPose;
 
 /// What the panels show of the camera.
 #[derive(Clone)]
 pub struct CameraFacts<'a> {
     /// Where the camera is and where it looks; `None` before a scene is open.
-    pub pose: Option<Eye>,
+    pub pose: Option<CameraPose>,
     /// The camera walks on the floor; otherwise it flies.
     pub is_walking: bool,
     /// Speed without running, metres a second.

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use crate::viewer::meter::{Grid, Reading};
-use crate::viewer::patch_sight::PatchSight;
+use crate::viewer::solution::meter::{Grid, Reading};
+use crate::viewer::solution::patch_view::ChosenPatchView;
 
 /// What the panels show of measurements.
 #[derive(Clone, Copy, Default)]
@@ -15,7 +15,7 @@ pub struct MeasurementFacts<'a> {
     /// The last grid.
     pub grid: Option<&'a Grid>,
     /// The view from the chosen patch.
-    pub patch_view: Option<&'a Arc<PatchSight>>,
+    pub patch_view: Option<&'a Arc<ChosenPatchView>>,
     /// A measurement is running.
     pub is_busy: bool,
 }

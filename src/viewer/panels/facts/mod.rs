@@ -7,7 +7,7 @@ mod picture;
 mod scene;
 mod shadow;
 
-pub use bake::{BakeFacts, LightState};
+pub use bake::BakeFacts;
 pub use camera::CameraFacts;
 pub use measurement::MeasurementFacts;
 pub use picture::PictureFacts;

@@ -1,7 +1,7 @@
 //! Facts about the open scene.
 
 use crate::scene::Scene;
-use crate::viewer::advice::Advice;
+use crate::viewer::session::advice::Advice;
 
 /// What the panels show of the open scene.
 #[derive(Clone, Copy, Default)]

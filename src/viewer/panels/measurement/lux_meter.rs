@@ -3,15 +3,15 @@
 use egui::{CollapsingHeader, Color32, DragValue, Grid, RichText, Role, Ui};
 use glam::Vec3;
 
-use super::super::action::Action;
 use super::super::chrome::theme;
 use super::super::chrome::widgets::{hint, lux, named, row, wide_button};
 use super::super::facts::Facts;
-use super::super::state::GridSettings;
-use super::super::tool::Tool;
 use crate::base::colour::luminance;
-use crate::viewer::meter::{Grid as MeasuredGrid, Reading};
-use crate::viewer::settings::GroupDial;
+use crate::viewer::action::Action;
+use crate::viewer::settings::light::GroupDial;
+use crate::viewer::settings::tool::GridSettings;
+use crate::viewer::settings::tool::Tool;
+use crate::viewer::solution::meter::{Grid as MeasuredGrid, Reading};
 
 pub fn lux_meter_ui(
     ui: &mut Ui,
@@ -29,7 +29,7 @@ pub fn lux_meter_ui(
     if let Some(reading) = facts.measurement.last {
         reading_ui(ui, reading, dials);
         if wide_button(ui, "Keep this reading", true, "Pins it to its place (Enter)") {
-            actions.push(Action::Pin);
+            actions.push(Action::PinReading);
         }
     }
     pins_ui(ui, facts.measurement.pins);
@@ -57,10 +57,10 @@ fn tool_ui(ui: &mut Ui, tool: Tool, actions: &mut Vec<Action>) {
         _ => {
             ui.horizontal(|ui| {
                 if ui.button("Measure a point").on_hover_text("Then click a surface (M)").clicked() {
-                    actions.push(Action::Take(Tool::Meter));
+                    actions.push(Action::SelectTool(Tool::Meter));
                 }
                 if ui.button("Measure a surface").on_hover_text("Then click a flat surface (G)").clicked() {
-                    actions.push(Action::Take(Tool::Grid));
+                    actions.push(Action::SelectTool(Tool::Grid));
                 }
             });
         }

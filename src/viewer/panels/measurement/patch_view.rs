@@ -4,18 +4,18 @@ use std::sync::Arc;
 
 use egui::{ColorImage, TextureHandle, TextureOptions, Ui};
 
-use super::super::action::Action;
 use super::super::chrome::widgets::{hint, row};
 use super::super::facts::Facts;
-use super::super::tool::Tool;
-use crate::viewer::patch_sight::{PatchSight, flag};
+use crate::viewer::action::Action;
+use crate::viewer::settings::tool::Tool;
+use crate::viewer::solution::patch_view::{ChosenPatchView, render_option};
 
 /// The hemicube as egui draws it.
 #[derive(Default)]
 pub struct PatchViewPicture {
     shows_items: bool,
     /// Of this sight, with a colour for each element or shaded.
-    shown: Option<(Arc<PatchSight>, bool, TextureHandle)>,
+    shown: Option<(Arc<ChosenPatchView>, bool, TextureHandle)>,
 }
 
 pub fn patch_view_ui(
@@ -31,7 +31,7 @@ pub fn patch_view_ui(
     } else if tool == Tool::PatchView {
         hint(ui, "Click a surface to see what it sees.");
     } else if ui.button("Choose a patch").on_hover_text("Then click a surface (N)").clicked() {
-        actions.push(Action::Take(Tool::PatchView));
+        actions.push(Action::SelectTool(Tool::PatchView));
     }
     let Some(sight) = facts.measurement.patch_view else { return };
     ui.checkbox(shows_heat, "form factors as a heat map")
@@ -45,9 +45,9 @@ pub fn patch_view_ui(
     ui.horizontal(|ui| buttons_ui(ui, sight, actions));
 }
 
-fn buttons_ui(ui: &mut Ui, sight: &PatchSight, actions: &mut Vec<Action>) {
+fn buttons_ui(ui: &mut Ui, sight: &ChosenPatchView, actions: &mut Vec<Action>) {
     if ui.button("Copy as an option").on_hover_text("For hemicube render: the same picture in a file").clicked() {
-        ui.copy_text(flag(&sight.point));
+        ui.copy_text(render_option(&sight.point));
     }
     if ui.button("Forget it").on_hover_text("Takes the view and its heat map away").clicked() {
         actions.push(Action::ClosePatchView);
@@ -55,7 +55,7 @@ fn buttons_ui(ui: &mut Ui, sight: &PatchSight, actions: &mut Vec<Action>) {
 }
 
 impl PatchViewPicture {
-    fn texture(&mut self, ctx: &egui::Context, sight: &Arc<PatchSight>) -> TextureHandle {
+    fn texture(&mut self, ctx: &egui::Context, sight: &Arc<ChosenPatchView>) -> TextureHandle {
         if let Some((shown, items, texture)) = &self.shown
             && Arc::ptr_eq(shown, sight)
             && *items == self.shows_items

@@ -8,8 +8,8 @@ use super::super::facts::Facts;
 use super::super::picture::shadows::name_of;
 use crate::render::shadow::DebugView;
 use crate::render::shadow::debug::count_colour;
-use crate::viewer::settings::LightSettings;
-use crate::viewer::sight::Comparison;
+use crate::viewer::settings::comparison::ComparisonLayout;
+use crate::viewer::settings::light::LightSettings;
 
 /// Width of what one can take hold of, points.
 const GRIP: f32 = 14.0;
@@ -28,15 +28,15 @@ pub fn comparison_ui(ui: &mut Ui, free: Rect, light: &mut LightSettings, facts: 
     }
     let painter = ui.painter_at(free);
     let mut line = free.top() + TOP;
-    if let Some(rival) = light.rival.filter(|_| light.is_real_time) {
-        let [a, b] = [light.shadows.technique, rival].map(name_of);
-        match light.comparison {
-            Comparison::Split => {
+    if let Some(compared) = light.compared_technique.filter(|_| light.is_real_time) {
+        let [a, b] = [light.shadows.technique, compared].map(name_of);
+        match light.comparison_layout {
+            ComparisonLayout::Split => {
                 let at = divider_ui(ui, free, &mut light.divider);
                 label(&painter, pos2(at - 10.0, line), Align2::RIGHT_CENTER, a, Color32::WHITE);
                 label(&painter, pos2(at + 10.0, line), Align2::LEFT_CENTER, b, Color32::WHITE);
             }
-            Comparison::Difference => {
+            ComparisonLayout::Difference => {
                 let share =
                     facts.shadows.difference.map_or("...".to_owned(), |share| format!("{:.3} %", 100.0 * share));
                 let text = format!("{a} and {b} differ in {share} of the pixels");

@@ -7,7 +7,7 @@ use super::super::chrome::theme;
 use super::super::chrome::widgets::lux;
 use super::super::facts::Facts;
 use crate::render::turbo;
-use crate::viewer::settings::GroupDial;
+use crate::viewer::settings::light::GroupDial;
 
 /// Most numbers of a grid that are written into the picture.
 const MAX_NUMBERS: usize = 120;
@@ -17,7 +17,7 @@ pub fn markers_ui(ui: &mut Ui, free: Rect, dials: &[GroupDial], facts: &Facts<'_
     let aspect = facts.picture.size[0] as f32 / facts.picture.size[1] as f32;
     let painter = ui.painter_at(free);
     let place = |point: Vec3| {
-        let [x, y] = eye.place_of(point, aspect)?;
+        let [x, y] = eye.project(point, aspect)?;
         (x.abs() <= 1.0 && y.abs() <= 1.0 && (facts.camera.is_visible)(point))
             .then(|| free.center() + vec2(0.5 * x * free.width(), -0.5 * y * free.height()))
     };

@@ -2,10 +2,10 @@
 
 use egui::{Align, Atom, AtomExt as _, Checkbox, Layout, Role, Slider, Ui};
 
-use super::super::action::Action;
 use super::super::chrome::widgets::named;
 use crate::render::ToneMap;
-use crate::viewer::settings::{GroupDial, LightSettings};
+use crate::viewer::action::Action;
+use crate::viewer::settings::light::{GroupDial, LightSettings};
 
 /// Room that a slider leaves for its number, points.
 const NUMBER_WIDTH: f32 = 62.0;

@@ -2,15 +2,15 @@
 
 use egui::{ComboBox, DragValue, RichText, Role, Slider, Ui};
 
-use super::super::action::Action;
 use super::super::chrome::theme;
 use super::super::chrome::widgets::{named, row};
 use super::super::facts::Facts;
-use super::super::tool::Tool;
 use crate::render::shadow::{DebugView, MapSettings, PlanarSettings, VolumeSettings};
 use crate::render::{ShadowSettings, ShadowTechnique};
-use crate::viewer::settings::LightSettings;
-use crate::viewer::sight::Comparison;
+use crate::viewer::action::Action;
+use crate::viewer::settings::comparison::ComparisonLayout;
+use crate::viewer::settings::light::LightSettings;
+use crate::viewer::settings::tool::Tool;
 
 /// Techniques with their names and meanings.
 const TECHNIQUES: [(ShadowTechnique, &str, &str); 6] = [
@@ -82,18 +82,19 @@ fn settings_ui(ui: &mut Ui, shadows: &mut ShadowSettings, in_hand: Tool, actions
 
 /// With what the shadows are compared.
 fn rival_ui(ui: &mut Ui, light: &mut LightSettings) {
-    let name = light.rival.map_or("Nothing", name_of);
+    let name = light.compared_technique.map_or("Nothing", name_of);
     ComboBox::from_label("Compare with").selected_text(name).width(COMBO_WIDTH).show_ui(ui, |ui| {
-        ui.selectable_value(&mut light.rival, None, "Nothing");
+        ui.selectable_value(&mut light.compared_technique, None, "Nothing");
         for (technique, name, _) in TECHNIQUES {
-            ui.selectable_value(&mut light.rival, Some(technique), name).on_hover_text("Without its faults");
+            ui.selectable_value(&mut light.compared_technique, Some(technique), name)
+                .on_hover_text("Without its faults");
         }
     });
-    if light.rival.is_some() {
+    if light.compared_technique.is_some() {
         ui.horizontal(|ui| {
-            ui.selectable_value(&mut light.comparison, Comparison::Split, "Split screen")
+            ui.selectable_value(&mut light.comparison_layout, ComparisonLayout::Split, "Split screen")
                 .on_hover_text("Both, left and right of a line that can be dragged");
-            ui.selectable_value(&mut light.comparison, Comparison::Difference, "Difference")
+            ui.selectable_value(&mut light.comparison_layout, ComparisonLayout::Difference, "Difference")
                 .on_hover_text("Where one sees a light and the other does not, away from edges");
         });
     }
@@ -177,7 +178,7 @@ fn planar_ui(ui: &mut Ui, planar: &mut PlanarSettings, in_hand: Tool, actions: &
     ] {
         ui.horizontal(|ui| {
             if ui.selectable_label(in_hand == tool, name).on_hover_text(hint).clicked() {
-                actions.push(Action::Take(if in_hand == tool { Tool::Look } else { tool }));
+                actions.push(Action::SelectTool(if in_hand == tool { Tool::Look } else { tool }));
             }
             ui.weak(if count == 0 { "automatic".to_owned() } else { format!("{count} chosen") });
         });

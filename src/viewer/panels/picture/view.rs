@@ -2,12 +2,12 @@
 
 use egui::{Checkbox, DragValue, Role, Ui};
 
-use super::super::action::Action;
 use super::super::chrome::widgets::named;
 use super::super::facts::Facts;
 use crate::render::{LuxScale, Shading};
-use crate::viewer::marks::Wire;
-use crate::viewer::settings::{LightSettings, SHADINGS};
+use crate::viewer::action::Action;
+use crate::viewer::settings::light::{LightSettings, SHADINGS};
+use crate::viewer::settings::view::Wire;
 
 /// Largest illuminance of a scale, lux: twice the sun.
 const MAX_LUX: f32 = 200_000.0;

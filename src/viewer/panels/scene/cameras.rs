@@ -2,9 +2,9 @@
 
 use egui::{Button, RichText, Ui};
 
-use super::super::action::Action;
 use super::super::chrome::widgets::hint;
 use super::super::facts::Facts;
+use crate::viewer::action::Action;
 
 pub fn cameras_ui(ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
     let cameras = facts.scene.open.map_or(&[][..], |scene| &scene.cameras);
@@ -15,7 +15,7 @@ pub fn cameras_ui(ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
         let button = Button::new(camera.name.as_str()).truncate();
         let response = ui.vertical_centered_justified(|ui| ui.add(button)).inner;
         if response.on_hover_text("Page Up and Page Down step through them").clicked() {
-            actions.push(Action::Jump(index));
+            actions.push(Action::GoToCamera(index));
         }
     }
     ui.horizontal(|ui| {
@@ -24,7 +24,7 @@ pub fn cameras_ui(ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
         for &number in &facts.camera.bookmarks {
             let button = ui.button(RichText::new(number.to_string()).monospace());
             if button.on_hover_text(format!("Goes there (key {number})")).clicked() {
-                actions.push(Action::Recall(number));
+                actions.push(Action::GoToBookmark(number));
             }
         }
         let free = (1..=9).find(|number| !facts.camera.bookmarks.contains(number));
@@ -32,7 +32,7 @@ pub fn cameras_ui(ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
         if let Some(number) = free
             && add.on_hover_text(format!("Marks this view as {number} (Ctrl {number})")).clicked()
         {
-            actions.push(Action::Bookmark(number));
+            actions.push(Action::SetBookmark(number));
         }
     });
 }

@@ -2,12 +2,12 @@
 
 use egui::{CollapsingHeader, ComboBox, Role, ScrollArea, TextEdit, Ui};
 
-use super::super::action::Action;
 use super::super::chrome::widgets::{grouped, hint, named, row};
 use super::super::facts::Facts;
-use super::super::state::Selection;
 use crate::base::ids::InstanceId;
 use crate::scene::{LightKind, Scene};
+use crate::viewer::action::Action;
+use crate::viewer::settings::view::Selection;
 
 /// Height of a list that scrolls, points.
 const LIST_HEIGHT: f32 = 190.0;

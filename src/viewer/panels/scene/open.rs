@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use egui::{Align2, Id, Role, ScrollArea, TextEdit, Ui};
 
-use super::super::action::Action;
 use super::super::chrome::widgets::{hint, named, wide_button};
 use crate::scene::builtin;
+use crate::viewer::action::Action;
 
 /// Most entries of a folder that are listed.
 const MAX_ENTRIES: usize = 2000;

@@ -2,10 +2,10 @@
 
 use egui::{ComboBox, DragValue, Role, Ui};
 
-use super::super::action::Action;
 use super::super::chrome::widgets::{named, wide_button};
 use super::super::facts::Facts;
-use crate::viewer::output::{PictureSettings, camera_flag};
+use crate::viewer::action::Action;
+use crate::viewer::settings::picture_file::PictureSettings;
 
 /// Sizes to choose from, pixels.
 const SIZES: [[u32; 2]; 5] = [[1280, 720], [1920, 1080], [2560, 1440], [3840, 2160], [7680, 4320]];
@@ -43,6 +43,6 @@ pub fn output_ui(ui: &mut Ui, picture: &mut PictureSettings, facts: &Facts<'_>, 
     if let Some(eye) = facts.camera.pose
         && wide_button(ui, "Copy the camera", true, "As an option of hemicube render")
     {
-        ui.copy_text(camera_flag(&eye));
+        ui.copy_text(eye.render_option());
     }
 }

@@ -2,15 +2,15 @@
 
 use egui::{ProgressBar, RichText, Sense, Stroke, Ui, pos2, vec2};
 
-use super::super::action::Action;
 use super::super::chrome::theme;
 use super::super::chrome::widgets::{clock, grouped, hint, metres, row, wide_button};
 use super::super::facts::Facts;
-use super::super::facts::LightState;
 use super::certificate::certificate_ui;
 use crate::bake::{BakeSettings, Quality};
 use crate::base::progress::Stage;
 use crate::patch::MeshSettings;
+use crate::viewer::action::Action;
+use crate::viewer::session::light_state::LightState;
 
 /// Height of the curve, points.
 const CURVE_HEIGHT: f32 = 56.0;

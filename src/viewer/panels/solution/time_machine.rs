@@ -2,11 +2,11 @@
 
 use egui::{Slider, Ui};
 
-use super::super::action::Action;
 use super::super::chrome::widgets::{grouped, hint, row, wide_button};
 use super::super::facts::Facts;
-use super::super::facts::LightState;
-use super::super::state::ReplaySettings;
+use crate::viewer::action::Action;
+use crate::viewer::session::light_state::LightState;
+use crate::viewer::settings::view::ReplaySettings;
 
 pub fn time_machine_ui(ui: &mut Ui, replay: &mut ReplaySettings, facts: &Facts<'_>, actions: &mut Vec<Action>) {
     let Some(recording) = facts.bake.recording else {

@@ -19,10 +19,14 @@ use crate::patch::MeshSettings;
 use crate::render::Shading;
 use crate::scene::doctor::Location;
 use crate::scene::{Scene, builtin};
-use crate::viewer::advice::Advice;
-use crate::viewer::camera::Eye;
-use crate::viewer::marks::Wire;
-use crate::viewer::memory::Memory;
+use crate::viewer::action::Action;
+use crate::viewer::camera::pose::CameraPose;
+use crate::viewer::preferences::Preferences;
+use crate::viewer::session::advice::Advice;
+use crate::viewer::session::light_state::LightState;
+use crate::viewer::settings::tool::Tool;
+use crate::viewer::settings::view::AdviceLocation;
+use crate::viewer::settings::view::Wire;
 
 const WINDOW: Vec2 = egui::vec2(1280.0, 2400.0);
 
@@ -44,7 +48,7 @@ fn facts(scene: Option<&'static Scene>, light: LightState) -> Facts<'static> {
             ..BakeFacts::default()
         },
         camera: CameraFacts {
-            pose: scene.map(|_| Eye::looking_along(Vec3::ZERO, Vec3::NEG_Z)),
+            pose: scene.map(|_| CameraPose::looking_along(Vec3::ZERO, Vec3::NEG_Z)),
             is_walking: true,
             speed: 2.0,
             ..CameraFacts::default()
@@ -67,11 +71,11 @@ fn cornell() -> &'static Scene {
 
 /// A window tall enough for every section, all of them open.
 fn desk(facts: Facts<'static>) -> Harness<'static, Desk> {
-    let mut memory = Memory { has_seen_tour: true, ..Memory::default() };
+    let mut preferences = Preferences { has_seen_tour: true, ..Preferences::default() };
     for title in SECTIONS {
-        memory.sections.insert(title.to_owned(), true);
+        preferences.sections.insert(title.to_owned(), true);
     }
-    desk_with(facts, memory, WINDOW)
+    desk_with(facts, preferences, WINDOW)
 }
 
 const SECTIONS: [&str; 13] = [
@@ -90,8 +94,8 @@ const SECTIONS: [&str; 13] = [
     "Statistics",
 ];
 
-fn desk_with(facts: Facts<'static>, memory: Memory, size: Vec2) -> Harness<'static, Desk> {
-    let mut panels = Panels::new(Quality::Draft, memory);
+fn desk_with(facts: Facts<'static>, preferences: Preferences, size: Vec2) -> Harness<'static, Desk> {
+    let mut panels = Panels::new(Quality::Draft, preferences);
     if let Some(scene) = facts.scene.open {
         panels.light.reset_groups(scene);
     }
@@ -130,18 +134,18 @@ fn buttons_ask_for_what_they_say() {
     for (tab, name, action) in [
         ("Picture", "Open ...", Action::ChooseFile),
         ("Picture", "Help", Action::ToggleHelp),
-        ("Picture", "Measure", Action::Take(Tool::Meter)),
-        ("Place", "Select", Action::Take(Tool::Choose)),
-        ("Meter", "View from", Action::Take(Tool::PatchView)),
-        ("Meter", "Measure a surface", Action::Take(Tool::Grid)),
+        ("Picture", "Measure", Action::SelectTool(Tool::Meter)),
+        ("Place", "Select", Action::SelectTool(Tool::Choose)),
+        ("Meter", "View from", Action::SelectTool(Tool::PatchView)),
+        ("Meter", "Measure a surface", Action::SelectTool(Tool::Grid)),
         ("Picture", "Frame all", Action::FrameAll),
         ("Picture", "Fly", Action::ToggleWalking),
         ("Picture", "auto", Action::ToggleAutoExposure),
         ("Solution", "Bake", Action::Bake),
         ("Solution", "Save the bake", Action::SaveBake),
         ("Solution", "Record the bake", Action::ToggleRecording),
-        ("Place", first, Action::Jump(0)),
-        ("Place", "Add", Action::Bookmark(1)),
+        ("Place", first, Action::GoToCamera(0)),
+        ("Place", "Add", Action::SetBookmark(1)),
         ("Place", "Picture of this view", Action::Screenshot),
         ("Place", "Write a large picture", Action::WritePicture),
         ("Place", "Read the file again", Action::Reload),
@@ -168,16 +172,16 @@ fn controls_set_what_they_name() {
     desk.run_steps(3);
     assert!(!desk.state().panels.light.groups[0].is_on);
     click(&mut desk, "Patches");
-    assert_eq!(desk.state().panels.memory.wire, Wire::Patches);
+    assert_eq!(desk.state().panels.preferences.wire, Wire::Patches);
     click(&mut desk, "trace rays while still");
-    assert!(desk.state().panels.memory.traces_stills);
+    assert!(desk.state().panels.preferences.traces_stills);
     click(&mut desk, "direct light with live shadows");
     assert!(desk.state().panels.light.render_settings(true).shadows.is_some());
     click(&mut desk, "indirect");
     assert!(!desk.state().panels.light.indirect && desk.state().panels.light.direct);
     click(&mut desk, "Place");
     click(&mut desk, "EXR");
-    assert!(desk.state().panels.memory.picture.is_exr);
+    assert!(desk.state().panels.preferences.picture.is_exr);
 }
 
 #[test]
@@ -282,18 +286,18 @@ fn advice_stands_before_what_to_do() {
     static ADVICE: std::sync::OnceLock<Vec<Advice>> = std::sync::OnceLock::new();
     let advice = ADVICE.get_or_init(|| {
         let place = Location { lines: vec![[Vec3::ZERO, Vec3::X]] };
-        vec![Advice { text: "open edges: 3; close gaps between walls".to_owned(), places: vec![place; 2] }]
+        vec![Advice { text: "open edges: 3; close gaps between walls".to_owned(), locations: vec![place; 2] }]
     });
     let mut desk = desk(Facts { scene: SceneFacts { advice, ..baked().scene }, ..baked() });
     click(&mut desk, "Solution");
     assert!(
         desk.query_by_label("open edges: 3").is_some() && desk.query_by_label("close gaps between walls").is_some()
     );
-    assert_eq!(click(&mut desk, "Show where"), [Action::ShowWhere(0)]);
+    assert_eq!(click(&mut desk, "Show where"), [Action::ShowAdvice(0)]);
     desk.state_mut().panels.shown_advice = Some(AdviceLocation { advice: 0, location: 1 });
     desk.run_steps(3);
     assert!(desk.query_by_label("2 of 2").is_some());
-    assert_eq!(click(&mut desk, "Show the next"), [Action::ShowWhere(0)]);
+    assert_eq!(click(&mut desk, "Show the next"), [Action::ShowAdvice(0)]);
 }
 
 #[test]
@@ -310,28 +314,28 @@ fn a_file_is_chosen_in_the_dialog() {
 
 #[test]
 fn the_first_start_explains_itself_once() {
-    let mut desk = desk_with(baked(), Memory::default(), egui::vec2(1280.0, 720.0));
+    let mut desk = desk_with(baked(), Preferences::default(), egui::vec2(1280.0, 720.0));
     click(&mut desk, "Let me walk");
-    assert!(desk.state().panels.memory.has_seen_tour && desk.query_by_label("Let me walk").is_none());
+    assert!(desk.state().panels.preferences.has_seen_tour && desk.query_by_label("Let me walk").is_none());
 }
 
 #[test]
 fn sections_fold_and_are_remembered() {
-    let mut desk = desk_with(baked(), Memory { has_seen_tour: true, ..Memory::default() }, WINDOW);
+    let mut desk = desk_with(baked(), Preferences { has_seen_tour: true, ..Preferences::default() }, WINDOW);
     click(&mut desk, "Place");
     assert!(desk.query_by_label("Find a name").is_some());
     click(&mut desk, "Scene");
     assert!(desk.query_by_label("Find a name").is_none());
-    assert_eq!(desk.state().panels.memory.sections.get("Scene"), Some(&false));
+    assert_eq!(desk.state().panels.preferences.sections.get("Scene"), Some(&false));
 }
 
 #[test]
 fn the_picture_gets_what_the_panels_leave() {
     let size = egui::vec2(1280.0, 720.0);
-    let mut desk = desk_with(facts(None, LightState::Nothing), Memory::default(), size);
+    let mut desk = desk_with(facts(None, LightState::Nothing), Preferences::default(), size);
     let beside = desk.state().free;
     assert!(beside.bottom() < size.y - 15.0, "{beside}");
-    desk.state_mut().panels.memory.is_open = false;
+    desk.state_mut().panels.preferences.is_open = false;
     desk.run_steps(2);
     let alone = desk.state().free;
     assert!((alone.right() - beside.right() - WIDTH).abs() < 1.0 && alone.min == beside.min, "{alone} {beside}");

@@ -8,7 +8,9 @@ use super::{Desk, baked, click, desk};
 use crate::base::ids::InstanceId;
 use crate::render::ShadowTechnique;
 use crate::render::shadow::DebugView;
-use crate::viewer::sight::Comparison;
+use crate::viewer::action::Action;
+use crate::viewer::settings::comparison::ComparisonLayout;
+use crate::viewer::settings::tool::Tool;
 
 fn live(facts: Facts<'static>) -> Harness<'static, Desk> {
     let mut desk = desk(facts);
@@ -29,10 +31,10 @@ fn choose(desk: &mut Harness<'static, Desk>, list: &str, entry: &str) {
 fn shadows_are_compared_and_looked_into() {
     let mut desk = live(Facts { shadows: ShadowFacts { num_light_samples: 7, ..ShadowFacts::default() }, ..baked() });
     choose(&mut desk, "Compare with", "Ray-traced");
-    let rival = desk.state().panels.light.rival().expect("a rival");
-    assert_eq!(rival.settings.technique, ShadowTechnique::Raytraced);
+    let compared = desk.state().panels.light.compared_shadows().expect("compared shadows");
+    assert_eq!(compared.settings.technique, ShadowTechnique::Raytraced);
     click(&mut desk, "Difference");
-    assert_eq!(desk.state().panels.light.comparison, Comparison::Difference);
+    assert_eq!(desk.state().panels.light.comparison_layout, ComparisonLayout::Difference);
     choose(&mut desk, "Look into", "Stencil counts");
     let debug = desk.state().panels.light.render_settings(true).shadow_debug.expect("a debug view");
     assert_eq!((debug.view, debug.light), (DebugView::StencilCounts, 0));
@@ -45,7 +47,7 @@ fn shadows_are_compared_and_looked_into() {
 #[test]
 fn the_divider_of_a_split_screen_is_dragged() {
     let mut desk = live(baked());
-    desk.state_mut().panels.light.rival = Some(ShadowTechnique::Map);
+    desk.state_mut().panels.light.compared_technique = Some(ShadowTechnique::Map);
     desk.run_steps(3);
     let free = desk.state().free;
     let at = |x: f32| egui::pos2(x, free.center().y);
@@ -65,8 +67,8 @@ fn planes_and_casters_are_chosen_by_clicking() {
     let mut desk = live(baked());
     desk.state_mut().panels.light.shadows.technique = ShadowTechnique::Planar;
     desk.run_steps(3);
-    assert_eq!(click(&mut desk, "Choose planes"), [Action::Take(Tool::Receiver)]);
-    assert_eq!(click(&mut desk, "Choose casters"), [Action::Take(Tool::Caster)]);
+    assert_eq!(click(&mut desk, "Choose planes"), [Action::SelectTool(Tool::Receiver)]);
+    assert_eq!(click(&mut desk, "Choose casters"), [Action::SelectTool(Tool::Caster)]);
     desk.state_mut().panels.light.shadows.planar.casters.insert(InstanceId(1));
     desk.run_steps(3);
     click(&mut desk, "Choose none");

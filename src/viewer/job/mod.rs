@@ -1,0 +1,9 @@
+//! Jobs that a click or a key starts: each runs in a thread of its own, pauses while a frame is drawn, and sends results
+//! to the window. Measurements, patch views, traced views, recordings and files are made by jobs.
+
+mod handle;
+mod jobs;
+mod result;
+
+pub use jobs::{JobKind, Jobs};
+pub use result::JobResult;

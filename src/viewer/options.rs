@@ -1,0 +1,18 @@
+//! What the window opens with.
+
+use std::path::PathBuf;
+
+use crate::bake::BakeSettings;
+
+/// What the window opens with.
+#[derive(Clone, Debug)]
+pub struct ViewerOptions {
+    /// The glTF file; `None` opens the built-in scene.
+    pub scene: Option<PathBuf>,
+    /// The material variant of the file; `None` takes the materials that the file has without one.
+    pub variant: Option<String>,
+    /// Settings of the bake if the file brings no light.
+    pub settings: BakeSettings,
+    /// The file into which the time of each frame is written.
+    pub frame_log: Option<PathBuf>,
+}

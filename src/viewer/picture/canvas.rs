@@ -1,0 +1,258 @@
+//! The picture of the scene behind the panels. It is drawn anew only if something in it has changed.
+//!
+//! Hardware draws every picture finely. A software driver (lavapipe) draws sketches during a movement, with one sample a
+//! pixel and at half the size if the full size takes too long, and a fine picture when the movement has ended.
+
+use std::sync::Arc;
+
+use crate::gpu::stopwatch::Laps;
+use crate::gpu::{Gpu, Stopwatch};
+use crate::render::OverlayPass;
+use crate::render::shadow::Batch;
+use crate::viewer::picture::comparison::DifferenceHeatMap;
+use crate::viewer::picture::content::{Detail, PictureContent};
+use crate::viewer::picture::scene_renderer::SceneRenderer;
+use crate::viewer::picture::texture::{new_texture, view_of, write};
+use crate::viewer::settings::comparison::{ComparedShadows, ComparisonLayout};
+use crate::viewer::solution::traced_view::TracedView;
+
+/// The difference between the last picture and the next.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// Nothing.
+    None,
+    /// Only the light was uploaded anew.
+    Light,
+    /// The view, the settings or the scene.
+    Content,
+}
+
+/// The last picture, and the renderers that draw the next.
+pub struct Canvas {
+    format: wgpu::TextureFormat,
+    renderer: SceneRenderer,
+    /// Draws the picture with the compared shadows; `None` unless shadows are compared.
+    compared_renderer: Option<SceneRenderer>,
+    heat_map: Option<DifferenceHeatMap>,
+    overlay: OverlayPass,
+    picture: Option<Picture>,
+    watch: Option<Arc<Stopwatch>>,
+    laps: Laps,
+}
+
+struct Picture {
+    content: PictureContent,
+    detail: Detail,
+    /// The light samples that were added last.
+    batch: Option<Batch>,
+    texture: wgpu::Texture,
+    /// The same with the compared shadows, in a split picture.
+    beside: Option<wgpu::Texture>,
+    /// Share of pixels in which the techniques disagree, if the picture is a heat map of them.
+    difference: Option<f32>,
+}
+
+impl Canvas {
+    /// A canvas for targets of `format`.
+    #[must_use]
+    pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
+        Self {
+            format,
+            renderer: SceneRenderer::new(gpu, format),
+            compared_renderer: None,
+            heat_map: None,
+            overlay: OverlayPass::new(gpu, format),
+            picture: None,
+            watch: None,
+            laps: Laps::default(),
+        }
+    }
+
+    /// What has to be drawn anew to show `content`.
+    #[must_use]
+    pub fn change(&self, content: &PictureContent) -> Change {
+        let Some(Picture { content: last, .. }) = &self.picture else { return Change::Content };
+        let is_same_sight = Arc::ptr_eq(&last.scene, &content.scene)
+            && last.view == content.view
+            && last.settings == content.settings
+            && last.compared_shadows == content.compared_shadows
+            && last.overlay.as_ref().map(Arc::as_ptr) == content.overlay.as_ref().map(Arc::as_ptr)
+            && last.size == content.size;
+        match (is_same_sight, last.light == content.light) {
+            (true, true) => Change::None,
+            (true, false) => Change::Light,
+            (false, _) => Change::Content,
+        }
+    }
+
+    /// Level of detail of the last picture; `None` if there is none.
+    #[must_use]
+    pub fn detail(&self) -> Option<Detail> {
+        self.picture.as_ref().map(|picture| picture.detail)
+    }
+
+    /// The light samples that were added last.
+    #[must_use]
+    pub fn batch(&self) -> Option<Batch> {
+        self.picture.as_ref().and_then(|picture| picture.batch)
+    }
+
+    /// Share of pixels in which the compared shadows disagree; `None` unless the picture is a heat map of them.
+    #[must_use]
+    pub fn difference(&self) -> Option<f32> {
+        self.picture.as_ref().and_then(|picture| picture.difference)
+    }
+
+    /// The driver draws on the CPU, so that coarser levels of detail are faster.
+    #[must_use]
+    pub fn is_slow(&self) -> bool {
+        self.renderer.is_slow()
+    }
+
+    /// The exposure that was metered for the last picture, stops; `None` if its exposure was fixed.
+    #[must_use]
+    pub fn metered_ev(&self, gpu: &Gpu) -> Option<f32> {
+        self.picture.as_ref().and_then(|_| self.renderer.metered_ev(gpu))
+    }
+
+    /// Notes the time of the last frame, seconds.
+    pub fn note_time(&mut self, seconds: f32) {
+        self.renderer.note_time(seconds);
+        self.compared_renderer.iter_mut().for_each(|renderer| renderer.note_time(seconds));
+    }
+
+    /// Adds part of a batch of light samples. The picture does not change before the batch is complete.
+    pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, content: &PictureContent, batch: Batch) {
+        self.renderer.add_light(gpu, encoder, &content.with_batch(Some(batch)));
+        if let Some(ComparedShadows { settings, .. }) = &content.compared_shadows {
+            let content = content.with_shadows(settings).with_batch(Some(batch));
+            self.compared_renderer(gpu).add_light(gpu, encoder, &content);
+        }
+        self.picture.iter_mut().for_each(|picture| picture.batch = Some(batch));
+    }
+
+    /// Draws a new picture. Light samples of a batch other than the first are added to those of the last picture.
+    pub fn draw(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        content: PictureContent,
+        detail: Detail,
+        batch: Option<Batch>,
+    ) {
+        if content.compared_shadows.is_none() {
+            // A comparison that has ended would otherwise keep a scene and its shadow maps.
+            (self.compared_renderer, self.heat_map) = (None, None);
+        }
+        let (shown, beside) = self.textures(gpu, content.size);
+        if let Some(watch) = &self.watch {
+            watch.begin(encoder);
+        }
+        let (beside, difference) = match &content.compared_shadows {
+            Some(ComparedShadows { settings, layout: ComparisonLayout::Difference }) => {
+                let heat_map = self.heat_map.get_or_insert_with(|| DifferenceHeatMap::new(gpu));
+                (None, heat_map.draw(gpu, &shown, &content, settings, detail))
+            }
+            compared => {
+                self.renderer.draw(gpu, encoder, &view_of(&shown), &content.with_batch(batch), detail);
+                self.draw_overlay(gpu, encoder, &shown, &content);
+                let beside = compared.as_ref().map(|ComparedShadows { settings, .. }| {
+                    let texture = beside.unwrap_or_else(|| new_texture(gpu, content.size, self.format));
+                    let other = content.with_shadows(settings).with_batch(batch);
+                    self.compared_renderer(gpu).draw(gpu, encoder, &view_of(&texture), &other, detail);
+                    self.draw_overlay(gpu, encoder, &texture, &content);
+                    texture
+                });
+                (beside, None)
+            }
+        };
+        if let Some(watch) = &self.watch {
+            watch.end(encoder);
+        }
+        self.picture = Some(Picture { content, detail, batch, texture: shown, beside, difference });
+    }
+
+    /// Textures for the next picture: those of the last one if its size is the same. The second one exists only if the last
+    /// picture had one.
+    fn textures(&mut self, gpu: &Gpu, size: [u32; 2]) -> (wgpu::Texture, Option<wgpu::Texture>) {
+        match self.picture.take().filter(|last| last.content.size == size) {
+            Some(last) => (last.texture, last.beside),
+            None => (new_texture(gpu, size, self.format), None),
+        }
+    }
+
+    fn compared_renderer(&mut self, gpu: &Gpu) -> &mut SceneRenderer {
+        self.compared_renderer.get_or_insert_with(|| {
+            let mut compared = SceneRenderer::new(gpu, self.format);
+            compared.follow_exposure(&self.renderer);
+            compared
+        })
+    }
+
+    fn draw_overlay(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        target: &wgpu::Texture,
+        PictureContent { scene, view, settings, size, overlay, .. }: &PictureContent,
+    ) {
+        if let Some(overlay) = overlay {
+            self.overlay.draw(gpu, encoder, &view_of(target), *size, scene, view, settings, overlay);
+        }
+    }
+
+    /// Drops the last picture, so that the next one is drawn in any case.
+    pub fn forget(&mut self) {
+        self.picture = None;
+    }
+
+    /// Switches the timing of passes on or off.
+    pub fn time(&mut self, gpu: &Gpu, is_wanted: bool) {
+        if is_wanted != self.watch.is_some() {
+            self.watch = is_wanted.then(|| Arc::new(Stopwatch::new(gpu)));
+            self.laps = Laps::default();
+            self.renderer.time(self.watch.as_ref());
+        }
+    }
+
+    /// Reads the times of the passes of the picture that was submitted last.
+    pub fn read_watch(&mut self, gpu: &Gpu) {
+        if let Some(watch) = &self.watch {
+            // The next frame reports a lost device.
+            self.laps = watch.read(gpu).unwrap_or_default();
+        }
+    }
+
+    /// Times of the passes of the last picture; empty unless passes are timed.
+    #[must_use]
+    pub fn laps(&self) -> &Laps {
+        &self.laps
+    }
+
+    /// Replaces the pixels of the last picture by a traced view; returns false if the sizes differ.
+    pub fn show_traced(&mut self, gpu: &Gpu, traced: &TracedView) -> bool {
+        let Some(picture) = self.picture.as_mut().filter(|picture| picture.content.size == traced.size) else {
+            return false;
+        };
+        write(gpu, &picture.texture, &traced.display);
+        picture.detail = Detail::Traced;
+        true
+    }
+
+    /// Copies the last picture into the top left corner of `target`. In a split picture the part to the right of `divider`, a
+    /// share of the width, has the compared shadows.
+    pub fn copy_to(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::Texture, divider: f32) {
+        let Some(Picture { texture, beside, .. }) = &self.picture else { return };
+        let [width, height] = [texture.width().min(target.width()), texture.height().min(target.height())];
+        let column = if beside.is_some() { ((divider * width as f32) as u32).min(width) } else { width };
+        for (source, from, to) in [(Some(texture), 0, column), (beside.as_ref(), column, width)] {
+            let Some(source) = source.filter(|_| from < to) else { continue };
+            let at = |texture| wgpu::TexelCopyTextureInfo {
+                origin: wgpu::Origin3d { x: from, y: 0, z: 0 },
+                ..wgpu::Texture::as_image_copy(texture)
+            };
+            let size = wgpu::Extent3d { width: to - from, height, depth_or_array_layers: 1 };
+            encoder.copy_texture_to_texture(at(source), at(target), size);
+        }
+    }
+}

@@ -1,0 +1,16 @@
+//! What is open: the scene, its light, the file it comes from, and the worker that loads and bakes it.
+
+mod default_sky;
+mod file_watch;
+mod state;
+pub(super) mod worker;
+
+pub mod advice;
+pub mod light_state;
+
+pub(super) mod open_scene;
+pub(super) mod source;
+pub(super) mod user_event;
+
+pub(super) use default_sky::NOTE as DEFAULT_SKY_NOTE;
+pub(super) use state::{Outcome, Session};

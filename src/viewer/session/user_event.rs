@@ -1,0 +1,60 @@
+//! Events that threads send to the window.
+
+use std::sync::Arc;
+
+use crate::scene::Scene;
+use crate::viewer::camera::collider::Collider;
+use crate::viewer::job::JobResult;
+use crate::viewer::picture::uploaded_scene::UploadedScene;
+use crate::viewer::session::advice::Advice;
+use crate::viewer::solution::solved::SolvedScene;
+
+/// An event that a thread sends to the window (the user event of winit).
+pub enum UserEvent {
+    /// The worker of a run has made progress. Events of earlier runs are ignored.
+    Worker {
+        /// Number of the run.
+        run: u32,
+        /// What has happened.
+        event: WorkerEvent,
+    },
+    /// A job has a result.
+    Job {
+        /// Number of the job.
+        number: u32,
+        /// The result.
+        result: JobResult,
+    },
+    /// Another program has written the open file.
+    FileChanged,
+}
+
+/// What has happened in a worker.
+pub enum WorkerEvent {
+    /// The scene is loaded and on the device, still dark unless the file is a bake.
+    Loaded(Box<LoadedScene>),
+    /// The elements of the bake are on the device, still dark.
+    MeshUploaded(UploadedScene),
+    /// Brighter light is on the device.
+    LightUpdated,
+    /// The progress or the curve of the worker has changed.
+    Progress,
+    /// The bake has ended; its light is on the device.
+    Finished(Arc<SolvedScene>),
+    /// Loading or baking has failed, with a message for the user.
+    Failed(String),
+}
+
+/// A scene that has been loaded.
+pub struct LoadedScene {
+    /// The scene of the file.
+    pub scene: Arc<Scene>,
+    /// Its triangles for collision and picking.
+    pub collider: Collider,
+    /// Its triangles on the device.
+    pub uploaded: UploadedScene,
+    /// The light, if the file is a bake.
+    pub solved: Option<Arc<SolvedScene>>,
+    /// Advice for the user.
+    pub advice: Vec<Advice>,
+}

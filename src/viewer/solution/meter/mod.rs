@@ -1,0 +1,15 @@
+//! The lux meter: readings at points, grids of points, and tables of both.
+//!
+//! Readings are those of `hemicube measure`, by the same function; only the shares of the light groups are interpolated
+//! from the light at the vertices.
+
+mod grid;
+mod reading;
+mod table;
+
+pub use grid::{Grid, GridPlan};
+pub use reading::{GroupReading, Reading, SurfaceReading, point_of, read};
+pub use table::write_table;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,170 @@
+//! One frame, and when the next one is due.
+
+use std::time::{Duration, Instant};
+
+use winit::event_loop::ControlFlow;
+
+use crate::viewer::action::Action;
+use crate::viewer::job::JobKind;
+use crate::viewer::panels::{BakeFacts, CameraFacts, Facts, MeasurementFacts, PictureFacts, SceneFacts, ShadowFacts};
+use crate::viewer::session::worker::Worker;
+use crate::viewer::settings::view::Tab;
+use crate::viewer::window::panel_shapes::PanelShapes;
+use crate::viewer::window::surface::FrameOutcome;
+use crate::viewer::window::viewer::Viewer;
+
+/// Pause between two uploads of light during a bake, in frame times: drawing then costs the bake little.
+const LIGHT_INTERVAL: f32 = 6.0;
+
+impl Viewer {
+    /// Draws one frame.
+    pub fn draw_frame(&mut self) {
+        // Bake and jobs pause until the frame is on the screen.
+        let paused = self.session.worker().map(Worker::pause);
+        self.jobs.pause();
+        let is_baking = paused.is_some();
+        let seconds = self.pacer.begin();
+
+        let is_moving = self.move_by_keys(seconds);
+        // Actions of the panels change the next frame.
+        let (panels, actions) = self.lay_out();
+        let outcome = self.present(panels);
+
+        drop(paused);
+        self.jobs.resume();
+        self.pacer.end(is_baking);
+        if is_moving || outcome == FrameOutcome::Retry || !actions.is_empty() {
+            self.pacer.request();
+        }
+        if let Some(worker) = self.session.worker() {
+            worker.request_light(Duration::from_secs_f32(LIGHT_INTERVAL * self.pacer.frame_seconds()));
+        }
+        for action in actions {
+            self.perform(action);
+        }
+        self.save_changed_preferences();
+    }
+
+    /// Moves the camera by the keys that are held. Returns true if it goes on moving.
+    fn move_by_keys(&mut self, seconds: f32) -> bool {
+        let input = self.controls.keys.motion_input();
+        let Some(open_scene) = &mut self.session.open_scene else { return false };
+        if !input.is_moving() && !open_scene.controller.is_moving() {
+            return false;
+        }
+        open_scene.controller.advance(input, seconds, &open_scene.collider);
+        input.is_moving() || open_scene.controller.is_moving()
+    }
+
+    /// Lays out the panels. Returns their triangles and the actions that they request.
+    fn lay_out(&mut self) -> (PanelShapes, Vec<Action>) {
+        let open_scene = self.session.open_scene.as_ref();
+        let next_settings = self.next_settings();
+        // The sizes need the area of the scene, which is summed only for the page that shows them.
+        let scene_of_page = open_scene.filter(|_| self.panels.preferences.tab == Tab::Solution);
+        let curve = self.session.curve();
+        let solved = open_scene.and_then(|open_scene| open_scene.solved.as_deref());
+        let is_visible = |point| open_scene.is_some_and(|open_scene| open_scene.sees(point));
+        let measurements = &self.results.measurements;
+        let laps = self.surface.canvas.laps();
+        let facts = Facts {
+            scene: SceneFacts {
+                open: open_scene.map(|open_scene| &*open_scene.scene),
+                variant: self.session.variant(),
+                num_elements: self.session.num_elements(),
+                advice: open_scene.map_or(&[], |open_scene| &open_scene.advice),
+            },
+            bake: BakeFacts {
+                light: self.session.light_state(),
+                is_solved: solved.is_some(),
+                next: scene_of_page.map(|open_scene| (next_settings, open_scene.mesh_sizes(&next_settings))),
+                curve: &curve,
+                report: solved.and_then(|solved| solved.report.as_ref()),
+                recording: self.results.recording.as_deref(),
+                is_recording: self.jobs.is_running(JobKind::Record),
+            },
+            camera: CameraFacts {
+                pose: open_scene.map(|open_scene| open_scene.controller.pose),
+                is_walking: open_scene.is_some_and(|open_scene| open_scene.controller.is_walking()),
+                speed: open_scene.map_or(0.0, |open_scene| open_scene.controller.speed()),
+                is_captured: self.controls.mouse.is_captured(),
+                bookmarks: self.panels.preferences.bookmarks_of(&self.session.name()),
+                is_visible: &is_visible,
+            },
+            picture: PictureFacts {
+                size: self.picture.size,
+                num_rays: self.picture.notes.num_rays,
+                is_writing: self.jobs.is_running(JobKind::Write),
+                frame_rate: self.pacer.frame_rate(),
+                frame_seconds: self.pacer.frame_seconds(),
+                adapter: &self.adapter,
+            },
+            shadows: ShadowFacts {
+                num_light_samples: self.picture.notes.num_light_samples,
+                num_points: self.num_points(),
+                difference: self.surface.canvas.difference(),
+                fault: self.picture.notes.fault.as_deref(),
+                laps: &laps.passes,
+                has_device_clock: laps.is_of_device,
+            },
+            measurement: MeasurementFacts {
+                last: measurements.last.as_ref(),
+                pins: &measurements.pins,
+                grid: measurements.grid.as_ref(),
+                patch_view: self.results.patch_view.as_ref(),
+                is_busy: self.jobs.is_running(JobKind::Measure),
+            },
+        };
+        let (mut actions, mut free) = (Vec::new(), egui::Rect::ZERO);
+        let mut shapes = self.gui.run(&self.window, |ui| (actions, free) = self.panels.ui(ui, &facts));
+        shapes.divider = self.panels.light.divider;
+        let window = self.surface.size().map(|side| side as f32 / shapes.pixels_per_point);
+        shapes.side = egui::Rect::from_min_max(egui::pos2(free.right(), 0.0), egui::pos2(window[0], free.bottom()));
+        self.picture.size = pixels(free, shapes.pixels_per_point, self.surface.size());
+        (shapes, actions)
+    }
+
+    /// Draws and presents the next picture with the panels.
+    fn present(&mut self, panels: PanelShapes) -> FrameOutcome {
+        self.surface.canvas.time(&self.surface.gpu, self.panels.shows_times());
+        let picture = self.next_picture();
+        self.surface.present(&self.window, picture, panels)
+    }
+
+    /// Requests the next frame if one is due. Returns until when there is nothing to do.
+    pub fn plan(&mut self) -> ControlFlow {
+        let now = Instant::now();
+        let refinement = &self.picture.refinement;
+        let wake = [self.gui.wake(), refinement.sketch_ends, refinement.tracing_begins].into_iter().flatten().min();
+        if wake.is_some_and(|wake| wake <= now) {
+            self.gui.clear_wake();
+            self.pacer.request();
+        }
+        match self.pacer.due(self.session.worker().is_some()) {
+            Some(due) if due <= now => {
+                self.window.request_redraw();
+                ControlFlow::Wait
+            }
+            Some(due) => ControlFlow::WaitUntil(due),
+            None => wake.map_or(ControlFlow::Wait, ControlFlow::WaitUntil),
+        }
+    }
+}
+
+/// Size in pixels of a rectangle at the top left corner of the window.
+fn pixels(free: egui::Rect, pixels_per_point: f32, window: [u32; 2]) -> [u32; 2] {
+    let side = |points: f32, limit: u32| ((points * pixels_per_point).ceil() as u32).clamp(1, limit.max(1));
+    [side(free.right(), window[0]), side(free.bottom(), window[1])]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_picture_never_exceeds_the_window() {
+        let rect = |x, y| egui::Rect::from_min_max(egui::Pos2::ZERO, egui::pos2(x, y));
+        assert_eq!(pixels(rect(100.0, 50.5), 1.5, [400, 300]), [150, 76]);
+        assert_eq!(pixels(rect(900.0, -3.0), 2.0, [400, 300]), [400, 1]);
+    }
+}

@@ -1,0 +1,22 @@
+//! Messages about faults of the shadows that are known for the view.
+
+use crate::render::shadow::KnownFault;
+use crate::scene::Scene;
+
+/// The message about a fault.
+#[must_use]
+pub fn message_about(fault: KnownFault, scene: &Scene) -> String {
+    let name = |lamp: usize| match scene.lights.get(lamp).map(|light| light.name.as_str()) {
+        Some(name) if !name.is_empty() => name.to_owned(),
+        _ => "a lamp".to_owned(),
+    };
+    match fault {
+        KnownFault::EyeInVolume { lamp } => {
+            format!("Depth-pass is wrong from here: the eye is in the shadow of {}", name(lamp))
+        }
+        KnownFault::NearPlaneCutsVolume { lamp } => {
+            format!("Depth-pass is wrong from here: the near plane cuts the shadow of {}", name(lamp))
+        }
+        KnownFault::FarPlaneCutsVolumes => "Depth-fail is wrong: the far plane cuts shadow volumes".to_owned(),
+    }
+}
