@@ -127,7 +127,7 @@ impl Stage {
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             renderer.draw(gpu, &mut encoder, &self.target, SIZE, &self.buffers, &self.view, &render_settings);
             gpu.queue.submit([encoder.finish()]);
-            gpu.device.poll(wgpu::PollType::wait_indefinitely()).expect("the device answers");
+            gpu.wait().expect("the device answers");
             if frame > 0 {
                 best = best.min(1e3 * start.elapsed().as_secs_f64());
             }

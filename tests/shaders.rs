@@ -3,8 +3,6 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
-use hemicube::gpu::shader::validate;
-
 use crate::support::sources::files_below;
 
 /// Name and files of each `shader!("name", "file", ...)` in a source text.
@@ -24,6 +22,15 @@ fn all_declarations() -> Vec<(String, Vec<String>)> {
     let src = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
     let texts = files_below(&src, "rs").into_iter().map(|path| std::fs::read_to_string(path).expect("it is text"));
     texts.flat_map(|text| declarations(&text)).filter(|(_, files)| !files.is_empty()).collect()
+}
+
+/// Parses and validates WGSL.
+fn validate(source: &str) -> Result<(), String> {
+    let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
+    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all())
+        .validate(&module)
+        .map_err(|error| error.emit_to_string(source))?;
+    Ok(())
 }
 
 #[test]

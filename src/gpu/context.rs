@@ -1,56 +1,35 @@
 //! One adapter, one device, one queue.
 
-use thiserror::Error;
+use std::sync::{Arc, OnceLock};
 
-/// The device and how it calls itself.
+use super::GpuError;
+use super::shader_library::ShaderLibrary;
+use super::software::keep_allocated_memory;
+use super::tier::Tier;
+
+/// An adapter with its device and queue.
 pub struct Gpu {
     /// The instance; the viewer makes its surface from it.
     pub instance: wgpu::Instance,
-    /// The adapter the device belongs to.
+    /// The adapter of the device.
     pub adapter: wgpu::Adapter,
     /// Makes resources.
     pub device: wgpu::Device,
     /// Takes work.
     pub queue: wgpu::Queue,
-}
-
-/// There is no device to work with.
-#[derive(Debug, Error)]
-pub enum GpuError {
-    /// No driver answered.
-    #[error(
-        "no GPU adapter found ({0}). Install a Vulkan driver; without a graphics card the software one will do: \
-         on Debian or Ubuntu `apt install mesa-vulkan-drivers libvulkan1`"
-    )]
-    NoAdapter(String),
-    /// The driver answered but gave no device.
-    #[error("the GPU adapter {adapter} gives no device: {cause}")]
-    NoDevice {
-        /// Its name.
-        adapter: String,
-        /// What it said.
-        cause: String,
-    },
-    /// A picture that no texture can hold.
-    #[error("cannot draw a picture of {width}x{height} pixels: each side must be 1 to {limit} on this GPU")]
-    PictureSize {
-        /// Pixels across.
-        width: u32,
-        /// Pixels down.
-        height: u32,
-        /// Largest side.
-        limit: u32,
-    },
-    /// The device was lost or refused a read-back.
-    #[error("the GPU did not answer: {0}")]
-    Lost(String),
+    /// Whether a graphics card or the processor draws.
+    pub tier: Tier,
+    /// The shaders in use.
+    pub shaders: ShaderLibrary,
+    /// Why the device was lost; empty while it works.
+    loss: Arc<OnceLock<String>>,
 }
 
 impl Gpu {
     /// A device for work without a window.
     ///
     /// # Errors
-    /// No adapter, or an adapter without the portable limits.
+    /// Returns an error if there is no adapter, or if its driver gives no device.
     pub fn headless() -> Result<Self, GpuError> {
         let instance = wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
         Self::for_surface(instance, None)
@@ -59,7 +38,7 @@ impl Gpu {
     /// A device that can draw to `surface` (a window), or to textures only.
     ///
     /// # Errors
-    /// No adapter, or an adapter without the portable limits.
+    /// Returns an error if there is no adapter, or if its driver gives no device.
     pub fn for_surface(instance: wgpu::Instance, surface: Option<&wgpu::Surface<'_>>) -> Result<Self, GpuError> {
         let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
             power_preference: wgpu::PowerPreference::HighPerformance,
@@ -67,7 +46,7 @@ impl Gpu {
             ..Default::default()
         }))
         .map_err(|error| GpuError::NoAdapter(error.to_string()))?;
-        let wanted = wgpu::Features::TIMESTAMP_QUERY
+        let optional = wgpu::Features::TIMESTAMP_QUERY
             | wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS
             | wgpu::Features::DEPTH32FLOAT_STENCIL8
             // Sums of many light samples need more than half floats.
@@ -75,18 +54,33 @@ impl Gpu {
             | wgpu::Features::TEXTURE_ADAPTER_SPECIFIC_FORMAT_FEATURES;
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("hemicube"),
-            required_features: adapter.features() & wanted,
+            required_features: adapter.features() & optional,
             // The adapter's own sizes: large scenes need more than the portable 128 MiB a storage buffer.
             required_limits: adapter.limits(),
             memory_hints: wgpu::MemoryHints::Manual { suballocated_device_memory_block_size: MEMORY_BLOCK },
             ..Default::default()
         }))
         .map_err(|error| GpuError::NoDevice { adapter: adapter.get_info().name, cause: error.to_string() })?;
-        let gpu = Self { instance, adapter, device, queue };
-        if gpu.is_software() {
-            let_the_allocator_keep_memory();
+        Ok(Self::from_parts(instance, adapter, device, queue))
+    }
+
+    /// Takes over a device that the caller has made, and its callback for the loss of the device.
+    #[must_use]
+    pub fn from_parts(
+        instance: wgpu::Instance,
+        adapter: wgpu::Adapter,
+        device: wgpu::Device,
+        queue: wgpu::Queue,
+    ) -> Self {
+        let loss = Arc::new(OnceLock::new());
+        let lost = Arc::clone(&loss);
+        // The first reason counts: those that follow are its consequences.
+        device.set_device_lost_callback(move |reason, message| drop(lost.set(format!("{message} ({reason:?})"))));
+        let tier = Tier::of(&adapter.get_info());
+        if tier.is_software() {
+            keep_allocated_memory();
         }
-        Ok(gpu)
+        Self { instance, adapter, device, queue, tier, shaders: ShaderLibrary::default(), loss }
     }
 
     /// Name of the adapter, with its backend.
@@ -96,24 +90,33 @@ impl Gpu {
         format!("{} ({})", info.name, info.backend)
     }
 
-    /// The adapter draws on the CPU (lavapipe): every pixel costs the cores that also trace rays.
+    /// The processor draws.
     #[must_use]
     pub fn is_software(&self) -> bool {
-        self.adapter.get_info().device_type == wgpu::DeviceType::Cpu
+        self.tier.is_software()
+    }
+
+    /// Checks that the device works. wgpu accepts work for a lost device and drops it, so what was drawn stays black.
+    ///
+    /// # Errors
+    /// Returns the reason if the device was lost.
+    pub fn check(&self) -> Result<(), GpuError> {
+        self.loss.get().map_or(Ok(()), |reason| Err(GpuError::Lost(reason.clone())))
+    }
+
+    /// Waits until the device has done all work submitted so far.
+    ///
+    /// # Errors
+    /// Returns the reason if the device was lost.
+    pub fn wait(&self) -> Result<(), GpuError> {
+        let waited = self.device.poll(wgpu::PollType::wait_indefinitely());
+        self.check()?;
+        waited.map(drop).map_err(|error| GpuError::Lost(error.to_string()))
     }
 }
 
-/// Size of the blocks of device memory that resources share, bytes; of memory that the host sees, half of it. A block is
-/// held as long as one resource lies in it: of wgpu's own, up to four times as large, a small buffer made at a busy moment
-/// held hundreds of MiB.
-const MEMORY_BLOCK: std::ops::Range<u64> = 64 << 20..64 << 20;
-
-/// Keeps the allocator from giving a software driver's memory back to the system after every submission, only to ask for
-/// it again: that took a third of the time of a hemicube.
+/// Size of the blocks of device memory that resources share, bytes; of memory that the host sees, half of it.
 ///
-/// The GNU allocator keeps twice the size of the largest block it has freed, of up to 32 MiB (mallopt(3),
-/// `M_MMAP_THRESHOLD`); this one is never touched. Other allocators just free it.
-fn let_the_allocator_keep_memory() {
-    const LARGEST: usize = 31 << 20;
-    drop(std::hint::black_box(Vec::<u8>::with_capacity(LARGEST)));
-}
+/// A block is held as long as one resource lies in it. With wgpu's own size, up to four times as large, a small buffer made
+/// at a busy moment held hundreds of MiB.
+const MEMORY_BLOCK: std::ops::Range<u64> = 64 << 20..64 << 20;

@@ -1,12 +1,20 @@
-//! Floor 1: the GPU device and nothing else: the adapter, shader modules, read-back, timestamps.
+//! Floor 1: the GPU device and nothing else: adapter and tier, shader modules, read-back, timestamps.
 //!
 //! What is drawn lives above: the lit scene on the device in `render::scene`, each pass with its own shader beside it.
 //! wgpu is named here, in `form_factor::hemicube`, `render` and `viewer`, and nowhere else.
 
 pub mod context;
+pub mod error;
 pub mod readback;
 pub mod shader;
+pub mod shader_library;
+mod shader_module;
+mod software;
+mod stitched;
 pub mod stopwatch;
+pub mod tier;
 
-pub use context::{Gpu, GpuError};
+pub use context::Gpu;
+pub use error::GpuError;
 pub use stopwatch::Stopwatch;
+pub use tier::Tier;

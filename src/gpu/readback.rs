@@ -1,13 +1,13 @@
-//! Textures and buffers back to the CPU.
+//! Read-back: textures and buffers copied to the CPU.
 
 use super::{Gpu, GpuError};
 
-/// Bytes of a whole single-sample texture, rows tightly packed.
+/// The bytes of a whole single-sample texture, rows tightly packed.
 ///
-/// Blocks until the queue has drained; for pictures, not for the hemicube loop.
+/// Blocks until the queue has drained, so it is for pictures and not for the hemicube loop.
 ///
 /// # Errors
-/// The device was lost.
+/// Returns an error if the device was lost.
 pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) -> Result<Vec<u8>, GpuError> {
     read_aspect(gpu, texture.as_image_copy(), bytes_per_pixel)
 }
@@ -15,7 +15,7 @@ pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) ->
 /// The stencil of a whole single-sample texture, a byte a pixel.
 ///
 /// # Errors
-/// The device was lost.
+/// Returns an error if the device was lost.
 pub fn read_stencil(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuError> {
     let stencil = wgpu::TexelCopyTextureInfo { aspect: wgpu::TextureAspect::StencilOnly, ..texture.as_image_copy() };
     read_aspect(gpu, stencil, 1)
@@ -45,12 +45,12 @@ fn read_aspect(gpu: &Gpu, source: wgpu::TexelCopyTextureInfo<'_>, bytes_per_pixe
     Ok(padded.chunks_exact(padded_row as usize).flat_map(|padded| &padded[..row as usize]).copied().collect())
 }
 
-/// Bytes of a whole buffer that may be copied from.
+/// The bytes of a whole buffer, whose usage must include `COPY_SRC`.
 ///
-/// Blocks until the queue has drained; for single numbers, not for the hemicube loop.
+/// Blocks until the queue has drained, so it is for single numbers and not for the hemicube loop.
 ///
 /// # Errors
-/// The device was lost.
+/// Returns an error if the device was lost.
 pub fn read_buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("readback"),
@@ -66,8 +66,9 @@ pub fn read_buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Result<Vec<u8>, GpuError
 
 /// Waits for the queue and maps `buffer`.
 fn mapped_bytes(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+    // The range below says whether the buffer was mapped.
     buffer.map_async(wgpu::MapMode::Read, .., |_| {});
-    gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Lost(error.to_string()))?;
+    gpu.wait()?;
     let view = buffer.get_mapped_range(..).map_err(|error| GpuError::Lost(error.to_string()))?;
     Ok(view.to_vec())
 }

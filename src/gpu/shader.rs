@@ -1,16 +1,15 @@
-//! Shader modules: WGSL files laid end to end, compiled for the device, checked by naga.
+//! Shaders as passes declare them: WGSL files laid end to end.
 //!
-//! Each pass declares its own [`Shader`] with the [`shader!`] macro. There is no preprocessor: a shader is a list of files
-//! below `shaders/`, and variants of it are pipeline `override` constants. `tests/shaders.rs` finds every declaration in the
-//! sources and validates it.
+//! Each pass declares its own [`Shader`] with the `shader!` macro. There is no preprocessor: a shader is a list of files
+//! below `shaders/`, and its variants are pipeline `override` constants. `tests/shaders.rs` finds every declaration in the
+//! sources and validates it with naga; `shader_library` reloads the files while the program runs.
 
-use super::Gpu;
-
-/// A complete WGSL module and the files it is made of.
+/// A complete WGSL module and the files it consists of.
+#[derive(Clone, Copy)]
 pub struct Shader {
-    /// Stem of its main file, the label of its module.
+    /// Label of the module.
     pub name: &'static str,
-    /// (file name below `shaders/`, text built in), laid end to end.
+    /// (file name below `shaders/`, text built into the program), laid end to end.
     pub parts: &'static [(&'static str, &'static str)],
 }
 
@@ -26,62 +25,35 @@ macro_rules! shader {
 pub(crate) use shader;
 
 impl Shader {
-    /// The WGSL text.
+    /// The built-in text.
     #[must_use]
     pub fn source(&self) -> String {
         self.parts.iter().map(|(_, text)| *text).collect::<Vec<_>>().join("\n")
     }
 
-    /// Compiles the built-in text.
-    #[must_use]
-    pub fn module(&self, gpu: &Gpu) -> wgpu::ShaderModule {
-        gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
-            label: Some(self.name),
-            source: wgpu::ShaderSource::Wgsl(self.source().into()),
-        })
+    /// Both consist of the same files.
+    pub(super) fn is(&self, other: &Self) -> bool {
+        self.parts.iter().map(|(file, _)| file).eq(other.parts.iter().map(|(file, _)| file))
     }
 }
 
-/// Parses and validates WGSL; the error is naga's own message with the place marked.
-///
-/// # Errors
-/// The text is no valid module.
-pub fn validate(source: &str) -> Result<(), String> {
-    let module = naga::front::wgsl::parse_str(source).map_err(|error| error.emit_to_string(source))?;
-    naga::valid::Validator::new(naga::valid::ValidationFlags::all(), naga::valid::Capabilities::all())
-        .validate(&module)
-        .map_err(|error| error.emit_to_string(source))?;
-    Ok(())
-}
-
-/// Byte offsets of the members of a WGSL struct and its size, to hold Rust structs against.
+/// Byte offsets of the members of a WGSL struct and its size, for tests that compare Rust structs with them.
 #[cfg(test)]
 pub fn struct_layout(shader: &Shader, name: &str) -> Vec<usize> {
     let module = naga::front::wgsl::parse_str(&shader.source()).expect("every shader is valid");
-    let (_, found) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).expect("the struct is there");
+    let (_, found) = module.types.iter().find(|(_, ty)| ty.name.as_deref() == Some(name)).expect("the struct exists");
     let naga::TypeInner::Struct { members, span } = &found.inner else { panic!("{name} is no struct") };
     members.iter().map(|member| member.offset).chain([*span]).map(|offset| offset as usize).collect()
 }
 
-/// A whole number of a WGSL module, to hold Rust constants against.
+/// A whole number of a WGSL module, for tests that compare Rust constants with it.
 #[cfg(test)]
 pub fn constant(shader: &Shader, name: &str) -> u32 {
     let module = naga::front::wgsl::parse_str(&shader.source()).expect("every shader is valid");
     let (_, found) =
-        module.constants.iter().find(|(_, known)| known.name.as_deref() == Some(name)).expect("it is there");
+        module.constants.iter().find(|(_, known)| known.name.as_deref() == Some(name)).expect("the constant exists");
     match module.global_expressions[found.init] {
         naga::Expression::Literal(naga::Literal::U32(value)) => value,
         _ => panic!("{name} is no whole number"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_broken_shader_is_refused_with_its_place() {
-        let message = validate("@fragment fn main() -> u32 { return 1.5; }").unwrap_err();
-        assert!(message.contains("1:"), "{message}");
     }
 }

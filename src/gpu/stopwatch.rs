@@ -1,4 +1,4 @@
-//! Time of each pass, by timestamps of the device, or by the processor's clock where it has none.
+//! The time of each pass, by timestamps of the device, or by the processor's clock if the device has none.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -6,32 +6,33 @@ use std::time::{Duration, Instant};
 use super::readback::read_buffer;
 use super::{Gpu, GpuError};
 
-/// Marks that one recording holds; passes beyond them are not timed.
+/// Most timestamps of one picture; passes beyond them are not timed.
 const MAX_MARKS: u32 = 4096;
+/// Features that timestamps between passes need.
 const NEEDED: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
-/// What passes have taken, in the order in which they first came; several of one name are added up.
+/// How long passes took, in the order in which each name first came; the times of passes of the same name are added up.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Laps {
     /// Names and milliseconds.
     pub passes: Vec<(&'static str, f32)>,
-    /// Measured by the device; else it cannot, and `passes` has but the time round the submission.
+    /// True if the device measured the passes; false if it cannot, and `passes` holds the time round the submission alone.
     pub is_of_device: bool,
 }
 
-/// Times the passes of one picture after the other.
+/// Measures the passes of one picture after the other.
 pub struct Stopwatch {
-    /// Timestamps and where they are read; none where the device has none.
+    /// Timestamps and the buffer that they are read from; `None` if the device has none.
     device: Option<(wgpu::QuerySet, wgpu::Buffer)>,
     record: Mutex<Record>,
 }
 
-/// What is known of a picture before it is drawn.
+/// What is known of a picture before the device has drawn it.
 #[derive(Default)]
 struct Record {
-    /// What lies before each timestamp but the first.
+    /// Names of the passes that end at each timestamp but the first.
     names: Vec<&'static str>,
-    /// Work of the processor within the picture.
+    /// Work of the processor for the picture.
     work: Vec<(&'static str, Duration)>,
     begun: Option<Instant>,
 }
@@ -46,7 +47,7 @@ impl Laps {
 }
 
 impl Stopwatch {
-    /// A watch for pictures that `gpu` draws.
+    /// A stopwatch for pictures that `gpu` draws.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
         let marks = || {
@@ -66,7 +67,7 @@ impl Stopwatch {
         Self { device: gpu.device.features().contains(NEEDED).then(marks), record: Mutex::default() }
     }
 
-    /// A picture begins.
+    /// Begins a picture.
     pub fn begin(&self, encoder: &mut wgpu::CommandEncoder) {
         *self.record() = Record { begun: Some(Instant::now()), ..Record::default() };
         if let Some((queries, _)) = &self.device {
@@ -74,7 +75,7 @@ impl Stopwatch {
         }
     }
 
-    /// What was recorded since the last mark is called `name`.
+    /// Ends a lap: what was recorded since the last one is called `name`.
     pub fn lap(&self, encoder: &mut wgpu::CommandEncoder, name: &'static str) {
         let Some((queries, _)) = &self.device else { return };
         let names = &mut self.record().names;
@@ -84,22 +85,22 @@ impl Stopwatch {
         }
     }
 
-    /// The processor has worked for a pass.
+    /// Enters time that the processor worked for a pass.
     pub fn work(&self, name: &'static str, time: Duration) {
         self.record().work.push((name, time));
     }
 
-    /// The picture ends.
+    /// Ends the picture.
     pub fn end(&self, encoder: &mut wgpu::CommandEncoder) {
         if let Some((queries, ticks)) = &self.device {
             encoder.resolve_query_set(queries, 0..self.record().names.len() as u32 + 1, ticks, 0);
         }
     }
 
-    /// Reads the watch after the picture was submitted; waits until it is drawn.
+    /// Reads the times after the picture was submitted. Blocks until it is drawn.
     ///
     /// # Errors
-    /// The device was lost.
+    /// Returns an error if the device was lost.
     pub fn read(&self, gpu: &Gpu) -> Result<Laps, GpuError> {
         let record = self.record();
         let mut laps = Laps { passes: Vec::new(), is_of_device: self.device.is_some() };
@@ -114,13 +115,13 @@ impl Stopwatch {
                 laps.add(name, between[1].saturating_sub(between[0]) as f32 * period);
             }
         } else if let Some(begun) = record.begun {
-            gpu.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| GpuError::Lost(error.to_string()))?;
+            gpu.wait()?;
             laps.add("all passes", 1e3 * begun.elapsed().as_secs_f32());
         }
         Ok(laps)
     }
 
-    /// Whole at any time: nothing panics while it is held.
+    /// The lock holds no state that a panic could leave half done.
     fn record(&self) -> MutexGuard<'_, Record> {
         self.record.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -15,7 +15,7 @@ use crate::support::device::gpu;
 fn plain_device(gpu: &Gpu) -> Gpu {
     let descriptor = wgpu::DeviceDescriptor { required_limits: gpu.adapter.limits(), ..Default::default() };
     let (device, queue) = pollster::block_on(gpu.adapter.request_device(&descriptor)).expect("a plain device");
-    Gpu { instance: gpu.instance.clone(), adapter: gpu.adapter.clone(), device, queue }
+    Gpu::from_parts(gpu.instance.clone(), gpu.adapter.clone(), device, queue)
 }
 
 /// No picture or window that we draw to has a stencil: shadows bring their own, in a format that every device has.

@@ -1,0 +1,15 @@
+//! A shader compiled for a device.
+
+use super::Gpu;
+use super::shader::Shader;
+
+impl Shader {
+    /// Compiles the text in force, and enters the shader among those in use on the device.
+    #[must_use]
+    pub fn module(&self, gpu: &Gpu) -> wgpu::ShaderModule {
+        gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {
+            label: Some(self.name),
+            source: wgpu::ShaderSource::Wgsl(gpu.shaders.text_of(*self).into()),
+        })
+    }
+}
