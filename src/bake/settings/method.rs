@@ -25,7 +25,7 @@ impl Method {
     #[must_use]
     pub fn fastest(gpu: Option<&Gpu>) -> Self {
         match gpu {
-            Some(gpu) if !gpu.is_software() => Self::Hemicube,
+            Some(gpu) if !gpu.tier.is_software() => Self::Hemicube,
             _ => Self::Hemisphere,
         }
     }
