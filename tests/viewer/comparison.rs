@@ -10,7 +10,7 @@ use hemicube::scene::builtin;
 use hemicube::viewer::picture::canvas::Canvas;
 use hemicube::viewer::picture::content::{Detail, PictureContent};
 use hemicube::viewer::settings::comparison::{ComparedShadows, ComparisonLayout};
-use wgpu::{CommandEncoderDescriptor, PollType, TextureFormat};
+use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
 use crate::support::device::gpu;
 

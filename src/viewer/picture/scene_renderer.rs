@@ -24,7 +24,7 @@ impl SceneRenderer {
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         let fine = Renderer::new(gpu, format, SAMPLES);
-        Self { quick: gpu.is_software().then(|| Quick::new(gpu, format, &fine)), fine, is_moving: false }
+        Self { quick: gpu.tier.is_software().then(|| Quick::new(gpu, format, &fine)), fine, is_moving: false }
     }
 
     /// The driver draws on the CPU, so that coarser levels of detail are faster.

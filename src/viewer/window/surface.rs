@@ -119,9 +119,9 @@ impl WindowSurface {
         if is_whole {
             self.canvas.read_watch(&self.gpu);
         }
-        if self.gpu.is_software() {
+        if self.gpu.tier.is_software() {
             // A software driver draws on the CPU: the bake must not resume before the frame is complete.
-            let _ = self.gpu.device.poll(wgpu::PollType::wait_indefinitely());
+            let _ = self.gpu.wait();
             if is_whole {
                 self.canvas.note_time(began.elapsed().as_secs_f32());
             }

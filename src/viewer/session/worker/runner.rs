@@ -84,7 +84,7 @@ impl Runner {
         self.shared.set_threshold(settings.threshold);
         // Hemicubes get a device of their own, so that frames do not wait for them. The default method on a software driver
         // is the hemisphere, which needs no device.
-        let needs_device = !self.gpu.is_software() || settings.method == Some(Method::Hemicube);
+        let needs_device = !self.gpu.tier.is_software() || settings.method == Some(Method::Hemicube);
         let gpu = needs_device.then(Gpu::headless).transpose()?;
         let done = bake(gpu.as_ref(), scene, settings, self)?;
         log::info!("the bake has ended");
