@@ -70,7 +70,7 @@ fn shadows_that_are_switched_off_give_their_textures_back() {
         let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
         canvas.draw(gpu, &mut encoder, shown, Detail::Plain, None);
         gpu.queue.submit([encoder.finish()]);
-        gpu.device.poll(PollType::wait_indefinitely()).expect("the device draws");
+        gpu.wait().expect("the device draws");
         num_gathering(gpu, u64::from(size[0]) * u64::from(size[1]))
     };
     assert!(num_gathering_with(Some(ShadowSettings::new(ShadowTechnique::VolumeDepthPass))) > 0);
