@@ -8,9 +8,8 @@ use std::process::Command;
 use std::time::Instant;
 
 use glam::Vec3;
-use hemicube::bake::{BakeSettings, Forecast, Quality, bake};
+use hemicube::bake::{BakeContext, BakeSettings, Forecast, Quality, bake_with};
 use hemicube::base::ids::{InstanceId, MaterialId};
-use hemicube::base::progress::Unwatched;
 use hemicube::form_factor::hemicube::Hemicubes;
 use hemicube::form_factor::{FormFactorSource, Viewpoint};
 use hemicube::gpu::Gpu;
@@ -76,7 +75,7 @@ fn tell_memory(scene: &Scene) -> anyhow::Result<()> {
     let settings = BakeSettings::preset(Quality::Draft);
     let forecast = Forecast::of(scene, &settings)?.bytes as f64;
     let gpu = Gpu::headless()?;
-    let report = bake(Some(&gpu), scene, &settings, &Unwatched)?.report;
+    let report = bake_with(scene, &settings, &BakeContext::on(&gpu))?.report;
     if let Some(peak) = report.memory_bytes.peak {
         let mib = |bytes: f64| bytes / f64::from(1 << 20);
         let ratio = peak as f64 / forecast;

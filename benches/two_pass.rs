@@ -54,7 +54,7 @@ fn judge(scene: &Scene, reference: Option<&Raster>) -> anyhow::Result<()> {
     let path_seconds = start.elapsed().as_secs_f64();
 
     let start = Instant::now();
-    let baked = bake(None, scene, &BakeSettings::preset(Quality::Medium), &Unwatched)?.baked;
+    let baked = bake(scene, &BakeSettings::preset(Quality::Medium))?.baked;
     let bake_seconds = start.elapsed().as_secs_f64();
     let settings = TwoPassSettings::default();
     let picture = two_pass(&Tracer::new(&baked.scene), &baked, &camera, size, &settings, &Unwatched);

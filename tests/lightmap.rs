@@ -7,7 +7,6 @@ use glam::Vec3;
 use gltf::Semantic;
 use hemicube::bake::{BakeSettings, Method, Quality, bake};
 use hemicube::base::colour::luminance;
-use hemicube::base::progress::Unwatched;
 use hemicube::base::sampling::{r2, triangle_from_square};
 use hemicube::base::triangle::{barycentric, interpolate};
 use hemicube::lightmap::{LightmapSettings, lightmap};
@@ -17,7 +16,7 @@ use hemicube::scene::builtin;
 fn the_texture_shows_what_the_vertices_store() {
     let scene = builtin::by_name("cornell").expect("it is built in");
     let settings = BakeSettings { method: Some(Method::Hemisphere), ..BakeSettings::preset(Quality::Draft) };
-    let bake = bake(None, &scene, &settings, &Unwatched).expect("it bakes");
+    let bake = bake(&scene, &settings).expect("it bakes");
     let size = settings.mesh_settings(&scene).element_size;
     let map = lightmap(&scene, &bake.mesh, &bake.baked.light, &LightmapSettings::for_elements(size)).expect("it fits");
 

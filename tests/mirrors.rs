@@ -153,7 +153,7 @@ fn room_with_a_mirror() -> Scene {
 fn two_passes_find_as_much_light_as_paths_among_mirrors_and_panes() {
     let scene = room_with_a_mirror();
     let settings = BakeSettings { element_size: Some(0.1), ..BakeSettings::preset(Quality::Draft) };
-    let baked = bake(None, &scene, &settings, &Unwatched).expect("small").baked;
+    let baked = bake(&scene, &settings).expect("small").baked;
     let eye = Camera::looking_at("inside", Vec3::new(1.8, 1.2, 1.9), Vec3::new(0.7, 0.4, 0.6), 1.2);
     let paths = PathSettings { samples: 1024, ..PathSettings::default() };
     let truth = mean(&path_traced(&Tracer::new(&scene), &eye, [16; 2], &paths, &Unwatched));

@@ -3,7 +3,7 @@
 use std::f32::consts::{FRAC_1_PI, PI};
 
 use glam::Vec3;
-use hemicube::bake::{BakeSettings, Method, Quality, Solver, bake};
+use hemicube::bake::{BakeContext, BakeSettings, Method, Quality, Solver, bake, bake_with};
 use hemicube::baked::BakedScene;
 use hemicube::base::ids::GroupId;
 use hemicube::base::progress::Unwatched;
@@ -291,7 +291,7 @@ fn radiosity_is_what_paths_find() {
     let Some(gpu) = gpu() else { return };
     let scene = lamp_room();
     let settings = BakeSettings { element_size: Some(0.15), ..BakeSettings::preset(Quality::Draft) };
-    let baked = bake(Some(gpu), &scene, &settings, &Unwatched).unwrap().baked;
+    let baked = bake_with(&scene, &settings, &BakeContext::on(gpu)).unwrap().baked;
     let ratio = baked_over_paths(&scene, &baked, &PathSettings::default());
     assert!((ratio - 1.0).abs().max_element() < 0.02, "{ratio}");
 }
@@ -308,7 +308,7 @@ fn the_k_th_gathering_pass_is_what_paths_of_as_many_reflections_find() {
             hemisphere_rays: 1024,
             ..BakeSettings::preset(Quality::Draft)
         };
-        let baked = bake(None, &scene, &settings, &Unwatched).unwrap().baked;
+        let baked = bake(&scene, &settings).unwrap().baked;
         // Irradiance has yet to be reflected by the surface that the eye looks at.
         let paths = PathSettings { max_bounces: passes as u32 - 1, ..PathSettings::default() };
         let ratio = baked_over_paths(&scene, &baked, &paths);

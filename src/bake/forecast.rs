@@ -1,4 +1,4 @@
-//! What a bake will take, before it is begun.
+//! The size and memory of a bake, predicted before it starts.
 
 use super::settings::{BakeSettings, Method, SHOOTING_RAYS};
 use crate::form_factor::Entry;
@@ -8,51 +8,51 @@ use crate::scene::{Scene, Triangle, Vertex};
 /// Program, driver and their buffers, bytes.
 const PROGRAM: usize = 82 << 20;
 
-/// A software driver that draws hemicubes, its shader compiler and the atlases, bytes; and what it and the lists of
-/// indices hold of each triangle.
+/// A software driver that draws hemicubes, its shader compiler and the atlases, bytes; and per triangle the memory of the
+/// driver and of the index lists.
 const DRAWING: usize = 140 << 20;
 const DRAWN_TRIANGLE: usize = 2200;
 
-/// Elements that halving where light changes adds, as a share of the most that it may add: under lights that throw soft
-/// shadows only, and under lights that throw hard ones. Where their edges lie is not known yet.
+/// Elements that subdivision typically adds, as a share of the most that it may add: under lights that cast soft shadows
+/// only, and under lights that cast hard ones.
 const TYPICAL_GROWTH: [f64; 2] = [0.1, 0.8];
 
-/// Rays of a row that meet an element of their own.
+/// Entries of a row, as a share of its rays: rays that meet the same element share an entry.
 const SHARE_OF_ENTRIES: f64 = 0.5;
 
-/// Copies of the mesh and of the drawn scene that a bake holds at a time.
+/// Copies of the mesh and of the displayed scene that a bake holds at a time.
 const COPIES: usize = 5;
 
-/// Bytes a triangle of the ray tree.
+/// Memory of the ray tree, bytes per triangle.
 const RAY_TREE: usize = 110;
 
-/// Counts and memory of a bake to come.
+/// Predicted counts and memory of a bake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forecast {
-    /// Elements before light refines them.
+    /// Elements before light subdivides them.
     pub elements: usize,
-    /// Shooters.
+    /// Patches.
     pub patches: usize,
-    /// Places at which light is stored, before light refines the mesh.
+    /// Light vertices before light subdivides the mesh.
     pub vertices: usize,
-    /// Most memory that the program will hold.
+    /// Most memory of the process, bytes.
     pub bytes: usize,
 }
 
 impl Forecast {
-    /// Cuts the scene to see; light is not asked for. Without a method in the settings, rays are foretold.
+    /// Meshes the scene and predicts the rest. If the settings name no method, the prediction is for rays.
     ///
     /// # Errors
-    /// The scene cannot be cut.
+    /// Returns an error if the scene cannot be meshed.
     pub fn of(scene: &Scene, settings: &BakeSettings) -> Result<Self, MeshError> {
         let mesh = PatchMesh::new(scene, &settings.mesh_settings(scene))?;
         Ok(Self::of_mesh(scene, &mesh, settings, settings.method.unwrap_or(Method::Hemisphere)))
     }
 
-    /// As [`Self::of`], for a scene that has been cut and a method that has been chosen.
+    /// As [`Self::of`], for a meshed scene and a chosen method.
     #[must_use]
     pub fn of_mesh(scene: &Scene, mesh: &PatchMesh, settings: &BakeSettings, method: Method) -> Self {
-        let added = if settings.refine_error > 0.0 {
+        let added = if settings.refinement.max_error > 0.0 {
             let most = settings.max_elements(scene).saturating_sub(mesh.elements.len());
             TYPICAL_GROWTH[usize::from(!scene.lights.is_empty())] * most as f64
         } else {
@@ -66,7 +66,7 @@ impl Forecast {
         let textures: usize = scene.textures.iter().map(|texture| texture.image.rgba.len()).sum();
         let input = scene.vertices.len() * size_of::<Vertex>() + scene.triangles.len() * size_of::<Triangle>();
         let row = (f64::from(SHOOTING_RAYS) * SHARE_OF_ENTRIES) as usize * size_of::<Entry>();
-        let rows = (mesh.patches.len() * settings.points_a_patch * row).min(super::settings::ROW_BYTES);
+        let rows = (mesh.patches.len() * settings.sampling.points_a_patch * row).min(super::settings::ROW_BYTES);
         let cut = grown(mesh.elements.len()) * an_element + grown(mesh.vertices.len()) * a_vertex;
         let drawing = match method {
             Method::Hemicube => DRAWING + scene.triangles.len() * DRAWN_TRIANGLE,

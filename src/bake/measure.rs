@@ -1,15 +1,15 @@
-//! Irradiance at points: what a lux meter would show.
+//! Irradiance at points: what a lux meter shows there.
 //!
-//! Direct light is asked for at the point itself; indirect light is gathered over the stored solution, which is sharper than
-//! the vertices round the point.
+//! Direct light is computed at the point itself; indirect light is gathered by rays over the stored solution, which is sharper
+//! than interpolation between the vertices around the point.
 
 use glam::Vec3;
 
 use super::settings::Quality;
 use crate::baked::BakedScene;
-use crate::base::progress::Progress;
+use crate::base::progress::{Progress, Unwatched};
 use crate::form_factor::Viewpoint;
-use crate::patch::PatchMesh;
+use crate::patch::{MeshError, MeshSettings, PatchMesh};
 use crate::radiosity::Viewpoints;
 use crate::radiosity::direct::DirectLight;
 use crate::raytrace::{GatherPrecision, MeasuringPoint, gathered_irradiance, stored_irradiance};
@@ -19,19 +19,26 @@ use crate::trace::Tracer;
 /// Irradiance at a point, lux per channel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// All of it.
+    /// Direct and indirect light.
     pub total: Vec3,
-    /// The part that comes straight from lights.
+    /// The part that arrives straight from the lights.
     pub direct: Vec3,
 }
 
-/// How closely is measured.
+/// The precision of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasureSettings {
     /// Rays that gather indirect light.
     pub gather: GatherPrecision,
-    /// Most rays a point and emitter in penumbrae.
+    /// Most rays per point and emitter in penumbrae.
     pub num_penumbra_rays: u32,
+}
+
+impl Default for MeasureSettings {
+    /// The medium preset.
+    fn default() -> Self {
+        Self::preset(Quality::default())
+    }
 }
 
 impl MeasureSettings {
@@ -47,21 +54,63 @@ impl MeasureSettings {
     }
 }
 
-/// Measures at `points` in a scene whose light is `baked`. None where it was cancelled.
+/// A scene with its light, and an observer of the measurement.
+#[derive(Clone, Copy)]
+pub struct MeasureContext<'a> {
+    /// The scene that was baked, or the scene of the bake; direct light is computed in it.
+    pub scene: &'a Scene,
+    /// The mesh of `scene`.
+    pub mesh: &'a PatchMesh,
+    /// The elements with their light.
+    pub baked: &'a BakedScene,
+    /// Follows the measurement and may cancel it.
+    pub progress: &'a dyn Progress,
+}
+
+/// Measures at points of a baked scene, in order.
 ///
-/// `scene` and its `mesh` are those that were baked, or the bake's own elements: direct light is asked of them.
-#[must_use]
+/// ```
+/// use glam::Vec3;
+/// use hemicube::bake::{BakeSettings, MeasureSettings, Method, Quality, bake, measure};
+/// use hemicube::raytrace::MeasuringPoint;
+/// use hemicube::scene::builtin;
+///
+/// let settings = BakeSettings {
+///     element_size: Some(0.5),
+///     method: Some(Method::Hemisphere),
+///     hemisphere_rays: 64,
+///     ..BakeSettings::preset(Quality::Draft)
+/// };
+/// let baked = bake(&builtin::cornell(), &settings)?.baked;
+/// let middle_of_the_floor = MeasuringPoint { position: baked.scene.bounds().centre().with_y(0.0), normal: Vec3::Y };
+/// let measured = measure(&baked, &[middle_of_the_floor], &MeasureSettings::preset(Quality::Draft))?;
+/// assert!(measured[0].total.min_element() >= measured[0].direct.min_element());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// Returns an error if the bake has no elements.
 pub fn measure(
-    scene: &Scene,
-    mesh: &PatchMesh,
     baked: &BakedScene,
     points: &[MeasuringPoint],
     settings: &MeasureSettings,
-    progress: &dyn Progress,
+) -> Result<Vec<Measured>, MeshError> {
+    let mesh = PatchMesh::new(&baked.scene, &MeshSettings::uncut())?;
+    let context = MeasureContext { scene: &baked.scene, mesh: &mesh, baked, progress: &Unwatched };
+    Ok(measure_with(&context, points, settings).unwrap_or_default())
+}
+
+/// Measures at points, in order; `None` after a cancel.
+#[must_use]
+pub fn measure_with(
+    context: &MeasureContext<'_>,
+    points: &[MeasuringPoint],
+    settings: &MeasureSettings,
 ) -> Option<Vec<Measured>> {
-    let sites = Viewpoints::new(scene);
+    let &MeasureContext { scene, mesh, baked, progress } = context;
+    let placement = Viewpoints::new(scene);
     let viewpoint = |(seed, point): (usize, &MeasuringPoint)| -> Viewpoint {
-        sites.above(point.position, point.normal.normalize_or_zero(), seed as u32)
+        placement.above(point.position, point.normal.normalize_or_zero(), seed as u32)
     };
     let viewpoints: Vec<Viewpoint> = points.iter().enumerate().map(viewpoint).collect();
     let tracer = Tracer::new(scene);
@@ -74,7 +123,7 @@ pub fn measure(
     Some(indirect.into_iter().zip(direct).map(measured).collect())
 }
 
-/// The light that is stored at the vertices round each point; none where a point lies on no surface.
+/// Interpolates the light stored at the vertices around each point; `None` if the point lies on no surface.
 #[must_use]
 pub fn look_up(baked: &BakedScene, points: &[MeasuringPoint]) -> Vec<Option<Measured>> {
     let tracer = Tracer::new(&baked.scene);

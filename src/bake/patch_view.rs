@@ -1,6 +1,6 @@
-//! View from a patch: what the hemicube at a place sees, unfolded.
+//! Patch view: the view of the hemicube at a viewpoint, unfolded.
 //!
-//! The top face lies in the middle, the four half sides round it with their horizons outwards; the corners stay empty.
+//! The top face lies in the middle, the four half sides around it with their horizons outwards; the corners stay empty.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -16,13 +16,13 @@ use crate::patch::{MeshError, MeshSettings, PatchMesh};
 pub struct PatchView {
     /// Pixels across and down: twice the width of the hemicube.
     pub size: [u32; 2],
-    /// Element `[pixel]` of the bake that is seen there, if any.
+    /// The element of the bake `[pixel]` in view, if any.
     pub items: Vec<Option<u32>>,
-    /// Linear radiance `[pixel]` of what is seen; the fourth channel is 0 where nothing is.
+    /// Linear radiance `[pixel]`; the fourth channel is 0 if no element is in view.
     pub radiance: Vec<[f32; 4]>,
 }
 
-/// A hemicube could not be drawn.
+/// A patch view cannot be drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum PatchViewError {
     /// The bake has no elements.
@@ -36,14 +36,14 @@ pub enum PatchViewError {
 /// Draws the hemicube at `viewpoint`, `size_px` pixels wide, over the elements of a bake.
 ///
 /// # Errors
-/// The bake is empty, or the device failed.
+/// Returns an error if the bake is empty or the device fails.
 pub fn patch_view(
     gpu: &Gpu,
     baked: &BakedScene,
     viewpoint: &Viewpoint,
     size_px: u32,
 ) -> Result<PatchView, PatchViewError> {
-    // The bake's triangles are its elements: they are not cut again.
+    // The triangles of the bake are its elements, so they are not subdivided again.
     let mesh = PatchMesh::new(&baked.scene, &MeshSettings::uncut())?;
     let mut hemicubes = Hemicubes::new(gpu, &baked.scene, &mesh, size_px);
     let folded = hemicubes.elements_seen(viewpoint)?;
@@ -54,12 +54,13 @@ pub fn patch_view(
     Ok(PatchView { size: [2 * n as u32; 2], items, radiance })
 }
 
-/// Pixel of the faces, one below the other, that lies at (`u`, `v`) of the unfolded hemicube; none in the corners.
+/// The pixel of the faces, in the layout of an atlas cell, that lies at (`u`, `v`) of the unfolded hemicube; `None` in the
+/// corners.
 fn folded_pixel(u: usize, v: usize, n: usize) -> Option<usize> {
     let half = n / 2;
     let inner = half..half + n;
     let (column, row) = (u.wrapping_sub(half), v.wrapping_sub(half));
-    // Side `k` is turned so that its upper edge meets the top face.
+    // Side `k` is rotated so that its upper edge meets the top face.
     let side = |k: usize, x: usize, y: usize| Some((n + (k - 1) * half + y) * n + x);
     match (inner.contains(&u), inner.contains(&v)) {
         (true, true) => Some(row * n + column),
@@ -71,7 +72,9 @@ fn folded_pixel(u: usize, v: usize, n: usize) -> Option<usize> {
     }
 }
 
-/// Radiance that an element sends out, the mean over its corners.
+/// The radiance of an element, the mean over its corners.
+///
+/// Equation: L = (M + rho E) / pi.
 fn radiance_of(baked: &BakedScene, mesh: &PatchMesh, e: usize) -> [f32; 4] {
     let element = &mesh.elements[e];
     let corners = baked.scene.triangles[element.triangle.index()].vertices;
@@ -87,7 +90,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_pixel_of_the_faces_is_unfolded_once() {
+    fn every_pixel_of_the_faces_appears_once() {
         const N: usize = 8;
         let mut seen: Vec<usize> =
             (0..4 * N * N).filter_map(|at| folded_pixel(at % (2 * N), at / (2 * N), N)).collect();

@@ -11,7 +11,7 @@ use super::lit_scene::{bake_device, bake_watched};
 use super::scene_input::{VariantOption, load};
 use super::terminal::Terminal;
 use super::value::{exposure, positive};
-use crate::bake::{BakeSettings, Report};
+use crate::bake::{BakeSettings, MeshCounts, Report, Work};
 use crate::baked;
 use crate::base::output::write_whole;
 use crate::form_factor::row_cache::RowCache;
@@ -89,7 +89,7 @@ pub fn run(args: &BakeArgs, terminal: Terminal) -> Result<()> {
             rows.len()
         ));
     }
-    if bake.report.cancelled {
+    if bake.report.work.cancelled {
         eprintln!("stopped early: what was solved until then is in the file");
     }
     Ok(())
@@ -97,7 +97,9 @@ pub fn run(args: &BakeArgs, terminal: Terminal) -> Result<()> {
 
 /// Prints what the bake made and how long it took.
 fn print_summary(report: &Report, output: &Path, exposure_ev: f32, terminal: Terminal) {
-    let Report { elements, patches, hemicubes, seconds, unshot_share, .. } = report;
+    let Report {
+        mesh: MeshCounts { elements, patches, .. }, work: Work { hemicubes, unshot_share, .. }, seconds, ..
+    } = report;
     terminal.print(format_args!(
         "{}: {elements} elements, {patches} patches, {hemicubes} hemicubes, {:.2} % unshot, {:.1} s; other programs show it at \
          --exposure {exposure_ev:.2}",

@@ -3,7 +3,7 @@
 use clap::{Args, ValueEnum};
 
 use super::value::{hemicube_size, positive, share};
-use crate::bake::{BakeSettings, Method, Quality, Solver};
+use crate::bake::{BakeSettings, Method, Quality, Refinement, Solver};
 
 /// How to bake.
 #[derive(Args, Clone, Debug)]
@@ -78,7 +78,10 @@ impl BakeOptions {
         });
         BakeSettings {
             element_size: self.element_size,
-            refine_error: self.refine.unwrap_or(preset.refine_error),
+            refinement: Refinement {
+                max_error: self.refine.unwrap_or(preset.refinement.max_error),
+                ..preset.refinement
+            },
             hemicube_px: self.hemicube_size.unwrap_or(preset.hemicube_px),
             method: self.method.map(|method| match method {
                 MethodName::Hemicube => Method::Hemicube,

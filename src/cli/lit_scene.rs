@@ -3,7 +3,7 @@
 use anyhow::Result;
 
 use super::terminal::Terminal;
-use crate::bake::{Bake, BakeSettings, Method, bake_with_rows};
+use crate::bake::{Bake, BakeContext, BakeSettings, Method, bake_with};
 use crate::baked::{self, BakedScene};
 use crate::form_factor::row_cache::RowCache;
 use crate::gpu::Gpu;
@@ -39,7 +39,7 @@ pub fn bake_watched(
     terminal: Terminal,
 ) -> Result<Bake> {
     let watch = terminal.watch()?;
-    let bake = bake_with_rows(gpu, scene, settings, rows, &watch)?;
+    let bake = bake_with(scene, settings, &BakeContext { gpu, row_cache: rows, observer: &watch })?;
     watch.finish();
     for note in &scene.notes {
         log::info!("{note}");

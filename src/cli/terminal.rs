@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, OnceLock};
 use anyhow::{Context, Result};
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::bake::Watch;
+use crate::bake::BakeObserver;
 use crate::base::progress::{Cancel, Progress, Stage};
 
 /// Where a subcommand prints what it does: stderr, or nowhere with `--quiet`.
@@ -88,4 +88,4 @@ impl Progress for TerminalWatch {
     }
 }
 
-impl Watch for TerminalWatch {}
+impl BakeObserver for TerminalWatch {}

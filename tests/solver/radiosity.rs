@@ -1,10 +1,9 @@
-//! Known answers through the whole route.
+//! Known answers of whole bakes: furnaces, linearity, energy balance, agreement of solvers.
 
 use glam::Vec3;
-use hemicube::bake::{BakeSettings, Method, Quality, Solver, bake};
+use hemicube::bake::{BakeContext, BakeSettings, Method, Quality, Refinement, Solver, bake, bake_with};
 use hemicube::base::colour::luminance;
 use hemicube::base::ids::{ElementId, GroupId};
-use hemicube::base::progress::Unwatched;
 use hemicube::form_factor::{Entry, Row};
 use hemicube::gpu::Gpu;
 use hemicube::patch::{MeshSettings, PatchMesh};
@@ -25,7 +24,7 @@ fn furnace_errors(gpu: Option<&Gpu>, method: Method) -> (f32, f64) {
         threshold: 1e-4,
         ..BakeSettings::preset(Quality::Draft)
     };
-    let bake = bake(gpu, &scene, &settings, &Unwatched).unwrap();
+    let bake = bake_with(&scene, &settings, &BakeContext { gpu, ..BakeContext::default() }).unwrap();
     let exact = exitance / (Vec3::ONE - reflectance);
     let group = &bake.baked.light.groups[0];
     let deviation = |(direct, indirect): (&Vec3, &Vec3)| {
@@ -37,16 +36,22 @@ fn furnace_errors(gpu: Option<&Gpu>, method: Method) -> (f32, f64) {
 }
 
 #[test]
-fn in_a_furnace_every_vertex_has_the_closed_form_light() {
+fn hemicubes_bake_a_furnace_to_its_closed_form() {
     let Some(gpu) = gpu() else { return };
     let (worst, imbalance) = furnace_errors(Some(gpu), Method::Hemicube);
     assert!(worst < 5e-3 && imbalance < 1e-3, "worst deviation {worst}, imbalance {imbalance}");
 }
 
 #[test]
-fn hemispheres_bake_a_furnace_without_a_device() {
+fn hemispheres_bake_a_furnace_to_its_closed_form_without_a_device() {
     let (worst, imbalance) = furnace_errors(None, Method::Hemisphere);
     assert!(worst < 5e-3 && imbalance < 1e-3, "worst deviation {worst}, imbalance {imbalance}");
+}
+
+/// The draft preset without adaptive subdivision.
+fn without_refinement() -> BakeSettings {
+    let draft = BakeSettings::preset(Quality::Draft);
+    BakeSettings { refinement: Refinement { max_error: 0.0, ..draft.refinement }, ..draft }
 }
 
 /// Two point lights in two groups, one twice as bright as when it burns alone in the other scene.
@@ -61,13 +66,13 @@ fn lamp_room(intensities: [f32; 2]) -> hemicube::scene::Scene {
 }
 
 #[test]
-fn light_is_linear_and_groups_do_not_mix() {
+fn light_is_linear_and_groups_are_independent() {
     let Some(gpu) = gpu() else { return };
-    // One mesh for both: it would follow the light else.
-    let settings = BakeSettings { element_size: Some(0.4), refine_error: 0.0, ..BakeSettings::preset(Quality::Draft) };
-    let bake = |intensities| bake(Some(gpu), &lamp_room(intensities), &settings, &Unwatched).unwrap().baked.light;
+    // Without subdivision, which follows the light, both bakes have the same mesh.
+    let settings = BakeSettings { element_size: Some(0.4), ..without_refinement() };
+    let bake = |intensities| bake_with(&lamp_room(intensities), &settings, &BakeContext::on(gpu)).unwrap().baked.light;
     let (one, other) = (bake([100.0, 30.0]), bake([200.0, 30.0]));
-    // Which patches shoot together depends on the powers, so the sums differ by what is left unshot.
+    // The order of shooting depends on the powers, so the sums differ by the unshot power.
     for (group, factor) in [(0, 2.0), (1, 1.0)] {
         let sum = |light: &hemicube::baked::VertexLight| {
             let group = &light.groups[group];
@@ -82,9 +87,9 @@ fn light_is_linear_and_groups_do_not_mix() {
 fn in_a_closed_room_no_light_escapes() {
     let Some(gpu) = gpu() else { return };
     let settings = BakeSettings { element_size: Some(0.4), ..BakeSettings::preset(Quality::Draft) };
-    let report = bake(Some(gpu), &lamp_room([100.0, 30.0]), &settings, &Unwatched).unwrap().report;
+    let report = bake_with(&lamp_room([100.0, 30.0]), &settings, &BakeContext::on(gpu)).unwrap().report;
     assert!(report.energy.escaped < 1e-4 * report.energy.emitted, "{:?}", report.energy);
-    assert!(report.energy.imbalance < 1e-3 && report.unshot_share < 0.01, "{report:?}");
+    assert!(report.energy.imbalance < 1e-3 && report.work.unshot_share < 0.01, "{report:?}");
     // 4 pi I arrives from each lamp; vertices sample it, so a coarse mesh is good for a few percent.
     let flux = 4.0 * std::f64::consts::PI * 130.0;
     assert!((report.energy.emitted / flux - 1.0).abs() < 0.05, "{} lm of {flux}", report.energy.emitted);
@@ -95,7 +100,7 @@ fn a_wall_of_fine_holes_bakes_to_finite_light() {
     let Some(gpu) = gpu() else { return };
     let settings = BakeSettings { element_size: Some(0.25), ..BakeSettings::preset(Quality::Draft) };
     let mut scene = lamp_room([100.0, 30.0]);
-    // A single solid texel in a hundred: most elements find none among their samples.
+    // One solid texel in a hundred: the samples of most elements find none.
     let mut texels = vec![[255, 255, 255, 0]; 100];
     texels[42] = [255; 4];
     scene.textures.push(crate::support::quads::texture(10, &texels));
@@ -104,7 +109,7 @@ fn a_wall_of_fine_holes_bakes_to_finite_light() {
     for (i, vertex) in scene.vertices.iter_mut().enumerate() {
         vertex.uv[0] = glam::Vec2::new((i % 4 / 2) as f32, (i % 2) as f32);
     }
-    let light = bake(Some(gpu), &scene, &settings, &Unwatched).unwrap().baked.light;
+    let light = bake_with(&scene, &settings, &BakeContext::on(gpu)).unwrap().baked.light;
     assert!(light.groups.iter().flat_map(|g| g.direct.iter().chain(&g.indirect)).all(|e| e.is_finite()));
 }
 
@@ -124,7 +129,7 @@ fn three_solvers_agree_on_the_cornell_box() {
             threshold: 1e-3,
             ..BakeSettings::preset(Quality::Draft)
         };
-        bake(None, &scene, &settings, &Unwatched).unwrap()
+        bake(&scene, &settings).unwrap()
     };
     let matrix = solved(Solver::Matrix);
     let exact = irradiance(&matrix);
@@ -138,7 +143,7 @@ fn three_solvers_agree_on_the_cornell_box() {
 }
 
 #[test]
-fn each_gathering_pass_brings_the_light_of_one_more_reflection() {
+fn each_gathering_pass_adds_one_reflection() {
     // In a furnace the light of k reflections is a partial sum of E (1 + rho + rho^2 + ...).
     let (reflectance, exitance) = (Vec3::new(0.5, 0.7, 0.2), Vec3::new(1.0, 2.0, 3.0));
     let scene = scenes::furnace(reflectance, exitance);
@@ -150,14 +155,14 @@ fn each_gathering_pass_brings_the_light_of_one_more_reflection() {
             passes: Some(passes),
             ..BakeSettings::preset(Quality::Draft)
         };
-        let bake = bake(None, &scene, &settings, &Unwatched).unwrap();
+        let bake = bake(&scene, &settings).unwrap();
         let expected = (0..passes as i32).map(|k| exitance * reflectance.powf(k as f32)).sum::<Vec3>();
         let group = &bake.baked.light.groups[0];
         for (direct, indirect) in group.direct.iter().zip(&group.indirect) {
             let found = *direct + *indirect;
             assert!(((found - expected) / expected).abs().max_element() < 5e-3, "pass {passes}: {found} {expected}");
         }
-        assert_eq!(bake.report.passes, passes);
+        assert_eq!(bake.report.work.passes, passes);
     }
 }
 

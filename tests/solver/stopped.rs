@@ -1,48 +1,50 @@
-//! Bakes that are stopped, and bakes that go on from what others found.
+//! Bakes that are cancelled, and bakes that reuse rows of form factors from a file.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::{Quat, Vec3};
-use hemicube::bake::{Bake, BakeSettings, Method, Quality, Watch, bake, bake_with_rows};
+use hemicube::bake::{
+    Bake, BakeContext, BakeObserver, BakeSettings, Method, Quality, Refinement, Sampling, bake, bake_with,
+};
 use hemicube::base::progress::{Progress, Stage, Unwatched};
 use hemicube::form_factor::row_cache::{RowCache, RowCacheError};
 use hemicube::scene::{Light, Scene, SceneBuilder, builtin};
 
 use crate::support::scenes::{glowing, with_groups};
 
-/// Cancels the bake when it tells of a stage for the `moment`-th time.
+/// Cancels the bake when it reports a stage for the `moment`-th time.
 struct StopAt {
     stage: Stage,
     moment: usize,
-    told: AtomicUsize,
+    count: AtomicUsize,
 }
 
 impl StopAt {
     fn new(stage: Stage, moment: usize) -> Self {
-        Self { stage, moment, told: AtomicUsize::new(0) }
+        Self { stage, moment, count: AtomicUsize::new(0) }
     }
 
-    /// Counts how often a stage is told of.
+    /// Counts the reports of a stage.
     fn never(stage: Stage) -> Self {
         Self::new(stage, usize::MAX)
     }
 
-    fn num_told(&self) -> usize {
-        self.told.load(Ordering::Relaxed)
+    fn num_reports(&self) -> usize {
+        self.count.load(Ordering::Relaxed)
     }
 }
 
 impl Progress for StopAt {
     fn report(&self, stage: Stage, _: f32) {
-        self.told.fetch_add(usize::from(stage == self.stage), Ordering::Relaxed);
+        self.count.fetch_add(usize::from(stage == self.stage), Ordering::Relaxed);
     }
     fn is_cancelled(&self) -> bool {
-        self.num_told() > self.moment
+        self.num_reports() > self.moment
     }
 }
 
-impl Watch for StopAt {}
+impl BakeObserver for StopAt {}
 
 fn settings() -> BakeSettings {
     BakeSettings {
@@ -54,15 +56,15 @@ fn settings() -> BakeSettings {
     }
 }
 
-fn bake_on(scene: &Scene, rows: Option<&RowCache>, watch: &dyn Watch) -> Bake {
-    bake_with_rows(None, scene, &settings(), rows, watch).unwrap()
+fn bake_on(scene: &Scene, row_cache: Option<&RowCache>, observer: &dyn BakeObserver) -> Bake {
+    bake_with(scene, &settings(), &BakeContext { gpu: None, row_cache, observer }).unwrap()
 }
 
 fn open(path: &Path) -> RowCache {
     RowCache::open(path, 1 << 30).unwrap()
 }
 
-/// A point light throws a hard shadow of a block on the floor: elements are halved to the last.
+/// A point light casts a hard shadow of a block on the floor, so elements are halved down to the smallest.
 fn sharp_room() -> Scene {
     let mut builder = SceneBuilder::default();
     let white = builder.material(glowing(Vec3::splat(0.7), Vec3::ZERO));
@@ -73,16 +75,16 @@ fn sharp_room() -> Scene {
 }
 
 #[test]
-fn a_bake_may_be_stopped_at_any_moment() {
+fn a_bake_can_be_cancelled_at_any_moment() {
     let scene = sharp_room();
     for stage in [Stage::Mesh, Stage::Direct, Stage::Solve, Stage::Gather] {
         let whole = StopAt::never(stage);
         bake_on(&scene, None, &whole);
-        let moments = 0..whole.num_told();
-        assert!(!moments.is_empty(), "{stage:?} is not told of");
+        let moments = 0..whole.num_reports();
+        assert!(!moments.is_empty(), "{stage:?} is not reported");
         for moment in moments.clone().step_by(moments.len().div_ceil(8)) {
             let bake = bake_on(&scene, None, &StopAt::new(stage, moment));
-            assert!(bake.report.cancelled, "{stage:?} {moment}");
+            assert!(bake.report.work.cancelled, "{stage:?} {moment}");
             let num_vertices = bake.baked.scene.vertices.len();
             for part in bake.baked.light.groups.iter().flat_map(|group| [&group.direct, &group.indirect]) {
                 assert_eq!(part.len(), num_vertices);
@@ -93,48 +95,54 @@ fn a_bake_may_be_stopped_at_any_moment() {
 }
 
 #[test]
-fn a_stopped_bake_goes_on_to_the_same_bits() {
+fn a_cancelled_bake_continues_to_the_same_bits() {
     let scene = builtin::cornell();
     let whole = StopAt::never(Stage::Gather);
     let expected = bake_on(&scene, None, &whole);
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows");
-    let late = StopAt::new(Stage::Gather, whole.num_told() / 4);
+    let late = StopAt::new(Stage::Gather, whole.num_reports() / 4);
     bake_on(&scene, Some(&open(&path)), &late);
     let rows = open(&path);
     let num_kept = rows.len();
     let resumed = bake_on(&scene, Some(&rows), &Unwatched);
     assert!(num_kept > 100 && rows.num_reused() >= num_kept, "{} of {num_kept} rows", rows.num_reused());
-    assert!(rows.len() > num_kept, "nothing was left to find");
+    assert!(rows.len() > num_kept, "no row was left to compute");
     assert_eq!(resumed.baked.light, expected.baked.light);
 }
 
 #[test]
-fn other_colours_need_hardly_a_row_anew_and_other_walls_all() {
+fn other_colours_reuse_most_rows_and_other_geometry_none() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows");
-    // Refined elements and the looks at noisy places follow the light; one size and one look stay.
-    let settings = BakeSettings { refine_error: 0.0, noise: f32::INFINITY, ..settings() };
-    let num_found = |scene: &Scene| {
+    // Refined elements and the number of hemicubes follow the light, so both are fixed here.
+    let settings = settings();
+    let settings = BakeSettings {
+        refinement: Refinement { max_error: 0.0, ..settings.refinement },
+        sampling: Sampling { noise: f32::INFINITY, ..settings.sampling },
+        ..settings
+    };
+    let num_computed = |scene: &Scene| {
         let rows = open(&path);
         let before = rows.len();
-        let cached = bake_with_rows(None, scene, &settings, Some(&rows), &Unwatched).unwrap();
-        let found = bake(None, scene, &settings, &Unwatched).unwrap();
-        assert_eq!(cached.baked.light, found.baked.light);
+        let context = BakeContext { row_cache: Some(&rows), ..BakeContext::default() };
+        let cached = bake_with(scene, &settings, &context).unwrap();
+        let uncached = bake(scene, &settings).unwrap();
+        assert_eq!(cached.baked.light, uncached.baked.light);
         rows.len() - before
     };
     let mut scene = builtin::cornell();
-    let num_rows = num_found(&scene);
+    let num_rows = num_computed(&scene);
     assert!(num_rows > 100);
     scene.materials.iter_mut().for_each(|material| material.base_colour *= Vec3::new(0.9, 0.5, 0.7).extend(1.0));
-    // Patches that had too little to send before may shoot now.
-    assert!(num_found(&scene) < num_rows / 20);
+    // Patches whose unshot power was too small before may shoot now.
+    assert!(num_computed(&scene) < num_rows / 20);
     scene.vertices.iter_mut().for_each(|vertex| vertex.position.y *= 1.01);
-    assert!(num_found(&scene) > num_rows / 2);
+    assert!(num_computed(&scene) > num_rows / 2);
 }
 
 #[test]
-fn a_broken_end_is_found_anew() {
+fn a_broken_last_record_is_computed_again() {
     let scene = builtin::cornell();
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows");

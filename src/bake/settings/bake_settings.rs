@@ -7,179 +7,209 @@ use crate::radiosity::gather::FinalGatherSettings;
 use crate::radiosity::solver::progressive::ProgressiveSettings;
 use crate::scene::Scene;
 
-/// How a scene is baked.
+/// How a scene is baked: the choices of a user, and the numbers of a preset behind them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakeSettings {
-    /// The preset that the other values began as.
+    /// The preset that the other values started from.
     pub quality: Quality,
-    /// Longest element edge, metres; none: chosen from the scene's area.
+    /// Longest element edge, metres; `None` derives it from the area of the scene.
     pub element_size: Option<f32>,
-    /// How form factors are found; none: whatever is faster.
+    /// How form factors are computed; `None` takes the faster method.
     pub method: Option<Method>,
-    /// Width of the hemicubes that gather, pixels.
-    pub hemicube_px: u32,
-    /// Rays of the hemispheres that gather.
-    pub hemisphere_rays: u32,
+    /// How the system of patches is solved.
+    pub solver: Solver,
+    /// Progressive: shots per patch, on average, after which shooting ends (`None`: 64). Gathering: number of passes (`None`:
+    /// until the light changes no more).
+    pub passes: Option<usize>,
     /// Share of the first unshot power at which shooting ends.
     pub threshold: f32,
-    /// How the system is solved.
-    pub solver: Solver,
-    /// Shots a patch, on average, after which shooting ends (none: 64), or passes of gathering (none: until nothing changes).
-    pub passes: Option<usize>,
-    /// Elements that a chosen element size aims at.
-    pub target_elements: f64,
+    /// Width of the hemicubes of the final gather, pixels.
+    pub hemicube_px: u32,
+    /// Rays of the hemispheres of the final gather.
+    pub hemisphere_rays: u32,
+    /// How many elements and patches a derived size aims at.
+    pub budget: MeshBudget,
+    /// How elements follow the light.
+    pub refinement: Refinement,
+    /// How densely light is sampled.
+    pub sampling: Sampling,
+}
+
+/// How many elements and patches a mesh aims at.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeshBudget {
+    /// Elements before light subdivides them.
+    pub elements: f64,
+    /// Patches.
+    pub patches: f64,
+}
+
+/// How elements are subdivided where light is not linear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refinement {
     /// Deviation from the mean of its ends at which an edge is halved, relative to the light there; 0 halves none.
-    pub refine_error: f32,
-    /// Shortest edges that halving makes before light is reflected, in element sizes.
+    pub max_error: f32,
+    /// Shortest edges made before light is reflected, in element sizes.
     pub min_edge: f32,
     /// Shortest edges of hard shadows in the result, in element sizes.
     pub sharp_edge: f32,
-    /// About the most elements, as a multiple of those aimed at and half of the input triangles.
+    /// About the most elements, as a multiple of the budget and half of the input triangles.
     pub max_growth: f32,
-    /// Patches that the patch size aims at.
-    pub target_patches: f64,
-    /// Hemicubes a patch.
-    pub points_a_patch: usize,
-    /// Error that vertices may make by borrowing gathered light from their neighbourhood.
-    pub cache_tolerance: f32,
-    /// Noise that gathering may leave at a vertex that others borrow from: standard deviation relative to the irradiance.
-    pub noise: f32,
-    /// Points of an element at which its direct light is found.
-    pub points_an_element: usize,
-    /// Rays a place and emitter in penumbrae.
-    pub num_penumbra_rays: u32,
 }
 
-/// Rays a point and emitter in penumbrae where only the mean over a patch counts.
+/// How densely light is sampled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Viewpoints per patch.
+    pub points_a_patch: usize,
+    /// Points per element at which direct light is sampled.
+    pub points_an_element: usize,
+    /// Rays per viewpoint and emitter in penumbrae.
+    pub num_penumbra_rays: u32,
+    /// Largest error of the irradiance cache.
+    pub cache_tolerance: f32,
+    /// Accepted noise of one record of the irradiance cache: standard deviation relative to its irradiance.
+    pub noise: f32,
+}
+
+/// Rays per point and emitter in penumbrae where only the mean over a patch matters.
 pub(in crate::bake) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 64;
 
-/// Rays of the hemispheres that shoot.
+/// Rays of the hemispheres of patches.
 pub(in crate::bake) const SHOOTING_RAYS: u32 = 512;
 
-/// Farthest that gathered light is borrowed from, in element sizes.
-const BORROW_REACH: f32 = 4.0;
+/// Largest radius of a record of the irradiance cache, in element sizes.
+const MAX_RADIUS: f32 = 4.0;
 
-/// Shots a patch, on average, after which shooting ends.
+/// Shots per patch, on average, after which shooting ends.
 const MAX_SHOTS_A_PATCH: usize = 64;
 
-/// Rows kept between shots.
+/// Memory for rows kept between shots, bytes.
 pub(in crate::bake) const ROW_BYTES: usize = 1 << 30;
 
 /// Mean area of an element in squares of the element size (bisection ends between 1/8 and 1/4).
 const AREA_OF_ELEMENT: f64 = 0.18;
 
-/// Elements that an input triangle is worth beyond those aimed at: what is modelled finely has edges that throw shadows.
+/// Elements per input triangle added to the budget: finely modelled surfaces have edges that cast shadows.
 const ELEMENTS_A_TRIANGLE: f64 = 0.5;
+
+impl Default for BakeSettings {
+    /// The medium preset.
+    fn default() -> Self {
+        Self::preset(Quality::default())
+    }
+}
 
 impl BakeSettings {
     /// The values of a preset.
     #[must_use]
     pub fn preset(quality: Quality) -> Self {
-        let base = Self {
+        let medium = Self {
             quality,
             element_size: None,
             method: None,
-            hemicube_px: 64,
-            hemisphere_rays: 1024,
-            threshold: 1e-3,
             solver: Solver::Progressive,
             passes: None,
-            target_elements: 12_000.0,
-            refine_error: 0.04,
-            min_edge: 1.0 / 8.0,
-            sharp_edge: 1.0 / 64.0,
-            max_growth: 10.0,
-            target_patches: 1_500.0,
-            points_a_patch: 2,
-            cache_tolerance: 0.1,
-            noise: 0.05,
-            points_an_element: 2,
-            num_penumbra_rays: 256,
+            threshold: 1e-3,
+            hemicube_px: 64,
+            hemisphere_rays: 1024,
+            budget: MeshBudget { elements: 12_000.0, patches: 1_500.0 },
+            refinement: Refinement { max_error: 0.04, min_edge: 1.0 / 8.0, sharp_edge: 1.0 / 64.0, max_growth: 10.0 },
+            sampling: Sampling {
+                points_a_patch: 2,
+                points_an_element: 2,
+                num_penumbra_rays: 256,
+                cache_tolerance: 0.1,
+                noise: 0.05,
+            },
         };
         match quality {
             Quality::Draft => Self {
+                threshold: 1e-2,
                 hemicube_px: 32,
                 hemisphere_rays: 256,
-                threshold: 1e-2,
-                target_elements: 6_000.0,
-                refine_error: 0.1,
-                min_edge: 1.0 / 4.0,
-                sharp_edge: 1.0 / 8.0,
-                max_growth: 3.0,
-                target_patches: 500.0,
-                points_a_patch: 1,
-                cache_tolerance: 0.2,
-                noise: 0.1,
-                points_an_element: 1,
-                num_penumbra_rays: 64,
-                ..base
+                budget: MeshBudget { elements: 6_000.0, patches: 500.0 },
+                refinement: Refinement { max_error: 0.1, min_edge: 1.0 / 4.0, sharp_edge: 1.0 / 8.0, max_growth: 3.0 },
+                sampling: Sampling {
+                    points_a_patch: 1,
+                    points_an_element: 1,
+                    num_penumbra_rays: 64,
+                    cache_tolerance: 0.2,
+                    noise: 0.1,
+                },
+                ..medium
             },
-            Quality::Medium => base,
+            Quality::Medium => medium,
             Quality::High => Self {
+                threshold: 3e-4,
                 hemicube_px: 128,
                 hemisphere_rays: 4096,
-                threshold: 3e-4,
-                target_elements: 40_000.0,
-                refine_error: 0.02,
-                min_edge: 1.0 / 16.0,
-                max_growth: 8.0,
-                target_patches: 4_000.0,
-                points_a_patch: 4,
-                cache_tolerance: 0.06,
-                noise: 0.025,
-                points_an_element: 4,
-                num_penumbra_rays: 1024,
-                ..base
+                budget: MeshBudget { elements: 40_000.0, patches: 4_000.0 },
+                refinement: Refinement { max_error: 0.02, min_edge: 1.0 / 16.0, max_growth: 8.0, ..medium.refinement },
+                sampling: Sampling {
+                    points_a_patch: 4,
+                    points_an_element: 4,
+                    num_penumbra_rays: 1024,
+                    cache_tolerance: 0.06,
+                    noise: 0.025,
+                },
+                ..medium
             },
         }
     }
 
-    /// Sizes in metres on this scene.
+    /// The sizes of elements and patches for a scene, metres.
     #[must_use]
     pub fn mesh_settings(&self, scene: &Scene) -> MeshSettings {
         let area = scene.area();
-        let chosen = (area / (AREA_OF_ELEMENT * self.target_elements)).sqrt() as f32;
+        let chosen = (area / (AREA_OF_ELEMENT * self.budget.elements)).sqrt() as f32;
         let element_size = self.element_size.unwrap_or(chosen);
-        let patch_size = ((area / self.target_patches).sqrt() as f32).max(element_size);
+        let patch_size = ((area / self.budget.patches).sqrt() as f32).max(element_size);
         MeshSettings { element_size, patch_size }
     }
 
-    /// About the most elements that light may cut the scene into.
+    /// About the most elements after subdivision.
     pub(in crate::bake) fn max_elements(&self, scene: &Scene) -> usize {
-        let aim = self.target_elements + ELEMENTS_A_TRIANGLE * scene.triangles.len() as f64;
-        (f64::from(self.max_growth) * aim) as usize
+        let aim = self.budget.elements + ELEMENTS_A_TRIANGLE * scene.triangles.len() as f64;
+        (f64::from(self.refinement.max_growth) * aim) as usize
     }
 
     /// How elements follow direct light before it is reflected.
-    pub(in crate::bake) fn refine(&self, scene: &Scene, sizes: &MeshSettings) -> SubdivisionSettings {
-        let min_edge = self.min_edge * sizes.element_size;
+    pub(in crate::bake) fn subdivision_by_direct(&self, scene: &Scene, sizes: &MeshSettings) -> SubdivisionSettings {
+        let min_edge = self.refinement.min_edge * sizes.element_size;
         SubdivisionSettings {
-            max_error: self.refine_error,
+            max_error: self.refinement.max_error,
             short_edge: 2.0 * min_edge,
             min_edge,
             max_elements: self.max_elements(scene),
         }
     }
 
-    /// How they follow all light in the end, given how they followed direct light.
-    pub(in crate::bake) fn sharpen(&self, refine: SubdivisionSettings, sizes: &MeshSettings) -> SubdivisionSettings {
-        SubdivisionSettings { min_edge: self.sharp_edge * sizes.element_size, ..refine }
+    /// How elements follow all light in the end, given how they followed direct light.
+    pub(in crate::bake) fn subdivision_by_all(
+        &self,
+        by_direct: SubdivisionSettings,
+        sizes: &MeshSettings,
+    ) -> SubdivisionSettings {
+        SubdivisionSettings { min_edge: self.refinement.sharp_edge * sizes.element_size, ..by_direct }
     }
 
-    pub(in crate::bake) fn gather(&self, sizes: &MeshSettings) -> FinalGatherSettings {
+    /// How vertices gather.
+    pub(in crate::bake) fn final_gather(&self, sizes: &MeshSettings) -> FinalGatherSettings {
         FinalGatherSettings {
-            tolerance: self.cache_tolerance,
-            noise: self.noise,
-            max_radius: BORROW_REACH * sizes.element_size,
+            tolerance: self.sampling.cache_tolerance,
+            noise: self.sampling.noise,
+            max_radius: MAX_RADIUS * sizes.element_size,
             near_field_reach: sizes.patch_size,
         }
     }
 
+    /// How patches shoot.
     pub(in crate::bake) fn progressive(&self) -> ProgressiveSettings {
         ProgressiveSettings {
             threshold: self.threshold,
             max_shots_a_patch: self.passes.unwrap_or(MAX_SHOTS_A_PATCH),
-            points_a_patch: self.points_a_patch,
+            points_a_patch: self.sampling.points_a_patch,
             patches_a_batch: 64,
             row_bytes: ROW_BYTES,
         }

@@ -9,7 +9,7 @@ mod method;
 mod quality;
 mod solver;
 
-pub use bake_settings::BakeSettings;
+pub use bake_settings::{BakeSettings, MeshBudget, Refinement, Sampling};
 pub use choice::UnknownName;
 pub use method::Method;
 pub use quality::Quality;

@@ -11,7 +11,7 @@ use super::bake_options::BakeOptions;
 use super::lit_scene::{bake_device, bake_watched};
 use super::scene_input::{VariantOption, load};
 use super::terminal::Terminal;
-use crate::bake::measure::{MeasureSettings, Measured, look_up, measure};
+use crate::bake::{MeasureContext, MeasureSettings, Measured, look_up, measure_with};
 use crate::baked::{self, BakedScene};
 use crate::base::output::write_whole;
 use crate::patch::{MeshSettings, PatchMesh};
@@ -96,7 +96,7 @@ fn by_radiosity(scene: Scene, points: &[MeasuringPoint], args: &MeasureArgs, ter
         Err(scene) => {
             let device = bake_device(&settings)?;
             let bake = bake_watched(device.as_ref(), &scene, &settings, None, terminal)?;
-            if bake.report.cancelled {
+            if bake.report.work.cancelled {
                 bail!("stopped");
             }
             LitScene { original: Some(scene), mesh: bake.mesh, baked: bake.baked }
@@ -107,7 +107,8 @@ fn by_radiosity(scene: Scene, points: &[MeasuringPoint], args: &MeasureArgs, ter
     }
     let watch = terminal.watch()?;
     let scene = lit.original.as_ref().unwrap_or(&lit.baked.scene);
-    let measured = measure(scene, &lit.mesh, &lit.baked, points, &MeasureSettings::preset(settings.quality), &watch);
+    let context = MeasureContext { scene, mesh: &lit.mesh, baked: &lit.baked, progress: &watch };
+    let measured = measure_with(&context, points, &MeasureSettings::preset(settings.quality));
     watch.finish();
     let measured: Vec<Option<Measured>> = measured.context("stopped")?.into_iter().map(Some).collect();
     table_of_values(points, &measured)

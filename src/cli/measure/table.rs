@@ -5,7 +5,7 @@ use std::path::Path;
 use anyhow::{Context, Result};
 use glam::Vec3;
 
-use crate::bake::measure::Measured;
+use crate::bake::Measured;
 use crate::base::colour::luminance;
 use crate::raytrace::{Irradiance, MeasuringPoint};
 

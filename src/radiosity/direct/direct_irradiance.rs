@@ -59,7 +59,8 @@ impl<'a> DirectLight<'a> {
     }
 
     /// The rays that test visibility.
-    pub(super) fn tracer(&self) -> &Tracer<'a> {
+    #[must_use]
+    pub fn tracer(&self) -> &Tracer<'a> {
         self.tracer
     }
 

@@ -239,7 +239,7 @@ impl Session {
         self.show_light();
         let elapsed = self.began.elapsed();
         let was_cancelled = self.worker.as_ref().is_some_and(Worker::is_cancelled);
-        let unshot = solved.report.as_ref().map_or(0.0, |report| 100.0 * report.unshot_share);
+        let unshot = solved.report.as_ref().map_or(0.0, |report| 100.0 * report.work.unshot_share);
         self.outcome = LightState::Baked { elapsed };
         self.retire();
         let mut is_lit = true;

@@ -140,7 +140,7 @@ fn max_moments(mesh: &PatchMesh, num_groups: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bake::{BakeSettings, Method, Quality, bake};
+    use crate::bake::{BakeSettings, MeshBudget, Method, Quality, bake};
     use crate::base::progress::Unwatched;
     use crate::scene::builtin;
     use std::sync::Arc;
@@ -149,9 +149,12 @@ mod tests {
     fn a_recording_goes_from_direct_light_to_nearly_all_light() {
         let scene = Arc::new(builtin::cornell());
         let preset = BakeSettings::preset(Quality::Draft);
-        let settings =
-            BakeSettings { method: Some(Method::Hemisphere), target_elements: 800.0, target_patches: 100.0, ..preset };
-        let done = bake(None, &scene, &settings, &Unwatched).expect("the box is baked");
+        let settings = BakeSettings {
+            method: Some(Method::Hemisphere),
+            budget: MeshBudget { elements: 800.0, patches: 100.0 },
+            ..preset
+        };
+        let done = bake(&scene, &settings).expect("the box is baked");
         let solved = SolvedScene::of_bake(scene, done, &settings);
         let recording = Recording::record(&solved, &Unwatched).expect("rays do not fail").expect("it was baked here");
         let shots: Vec<usize> = recording.moments.iter().map(|moment| moment.num_shots).collect();

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use glam::Vec3;
 
-use crate::bake::measure::{MeasureSettings, Measured, measure};
 use crate::bake::{Bake, BakeSettings, Quality, Report};
+use crate::bake::{MeasureContext, MeasureSettings, Measured, measure_with};
 use crate::baked::BakedScene;
 use crate::base::progress::Progress;
 use crate::patch::{MeshError, MeshSettings, PatchMesh};
@@ -51,7 +51,8 @@ impl SolvedScene {
     #[must_use]
     pub fn measure(&self, points: &[MeasuringPoint], progress: &dyn Progress) -> Option<Vec<Measured>> {
         let settings = MeasureSettings::preset(self.quality);
-        measure(&self.scene, &self.mesh, &self.baked, points, &settings, progress)
+        let context = MeasureContext { scene: &self.scene, mesh: &self.mesh, baked: &self.baked, progress };
+        measure_with(&context, points, &settings)
     }
 
     /// Direct irradiance `[e][g]` of the elements: the mean of their corners, lux per channel.

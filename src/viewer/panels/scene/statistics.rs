@@ -19,6 +19,6 @@ pub fn statistics_ui(ui: &mut Ui, facts: &Facts<'_>) {
         row(ui, "Elements drawn", grouped(num_elements));
     }
     if let Some(report) = facts.bake.report {
-        row(ui, "Vertices with light", grouped(report.vertices));
+        row(ui, "Vertices with light", grouped(report.mesh.vertices));
     }
 }

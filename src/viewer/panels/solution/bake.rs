@@ -97,7 +97,7 @@ fn in_words(settings: &BakeSettings, sizes: &MeshSettings) -> String {
         100.0 * settings.threshold,
         grouped(settings.hemisphere_rays as usize),
         settings.hemicube_px,
-        settings.num_penumbra_rays,
+        settings.sampling.num_penumbra_rays,
     )
 }
 

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use winit::event_loop::EventLoopProxy;
 
 use super::shared::{Shared, lock};
-use crate::bake::{BakeSettings, Method, Watch, bake};
+use crate::bake::{BakeContext, BakeObserver, BakeSettings, Method, bake_with};
 use crate::baked::{self, BakedScene, VertexLight};
 use crate::base::progress::{Progress, Stage};
 use crate::gpu::Gpu;
@@ -86,7 +86,7 @@ impl Runner {
         // is the hemisphere, which needs no device.
         let needs_device = !self.gpu.tier.is_software() || settings.method == Some(Method::Hemicube);
         let gpu = needs_device.then(Gpu::headless).transpose()?;
-        let done = bake(gpu.as_ref(), scene, settings, self)?;
+        let done = bake_with(scene, settings, &BakeContext { gpu: gpu.as_ref(), row_cache: None, observer: self })?;
         log::info!("the bake has ended");
         if let Some(elements) = &*lock(&self.elements) {
             elements.set_light_in_parts(&self.gpu, &done.baked.light, || self.rest());
@@ -129,8 +129,8 @@ impl Progress for Runner {
     }
 }
 
-impl Watch for Runner {
-    fn mesh(&self, dark: &BakedScene) {
+impl BakeObserver for Runner {
+    fn on_mesh(&self, dark: &BakedScene) {
         self.rest();
         let uploaded = self.uploaded(dark, || self.rest());
         // The upload begins now and not with the next frame.
@@ -140,11 +140,11 @@ impl Watch for Runner {
         *lock(&self.elements) = Some(elements);
     }
 
-    fn wants_light(&self) -> bool {
+    fn is_light_due(&self) -> bool {
         self.shared.is_light_due()
     }
 
-    fn light(&self, estimate: &VertexLight) {
+    fn on_light(&self, estimate: &VertexLight) {
         if let Some(elements) = &*lock(&self.elements) {
             self.shared.wait_for_window();
             elements.set_light_in_parts(&self.gpu, estimate, || self.rest());

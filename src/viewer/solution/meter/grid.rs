@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-use crate::bake::measure::Measured;
+use crate::bake::Measured;
 use crate::base::colour::luminance;
 use crate::base::ids::TriangleId;
 use crate::base::progress::Progress;

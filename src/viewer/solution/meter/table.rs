@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 
 use super::{Grid, Reading};
-use crate::bake::measure::Measured;
+use crate::bake::Measured;
 use crate::base::colour::luminance;
 use crate::base::output::write_whole;
 use crate::raytrace::MeasuringPoint;

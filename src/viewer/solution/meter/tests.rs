@@ -6,8 +6,7 @@ use glam::Vec3;
 
 use super::table::table_of;
 use super::*;
-use crate::bake::measure::{MeasureSettings, measure};
-use crate::bake::{BakeSettings, Method, Quality, bake};
+use crate::bake::{BakeSettings, MeasureContext, MeasureSettings, MeshBudget, Method, Quality, bake, measure_with};
 use crate::base::colour::luminance;
 use crate::base::progress::Unwatched;
 use crate::scene::builtin;
@@ -21,8 +20,12 @@ fn cornell() -> &'static SolvedScene {
     SOLVED.get_or_init(|| {
         let scene = Arc::new(builtin::cornell());
         let preset = BakeSettings::preset(Quality::Draft);
-        let settings = BakeSettings { method: Some(Method::Hemisphere), target_elements: 2000.0, ..preset };
-        let done = bake(None, &scene, &settings, &Unwatched).expect("the box is baked");
+        let settings = BakeSettings {
+            method: Some(Method::Hemisphere),
+            budget: MeshBudget { elements: 2000.0, ..preset.budget },
+            ..preset
+        };
+        let done = bake(&scene, &settings).expect("the box is baked");
         SolvedScene::of_bake(scene, done, &settings)
     })
 }
@@ -39,7 +42,9 @@ fn the_meter_and_measure_give_the_same_number() {
     let point = point_of(&floor_pick());
     let reading = read(solved, point, &Unwatched).expect("nobody cancels");
     let settings = MeasureSettings::preset(Quality::Draft);
-    let measured = measure(&solved.scene, &solved.mesh, &solved.baked, &[point], &settings, &Unwatched);
+    let context =
+        MeasureContext { scene: &solved.scene, mesh: &solved.mesh, baked: &solved.baked, progress: &Unwatched };
+    let measured = measure_with(&context, &[point], &settings);
     assert_eq!(measured, Some(vec![reading.measured]));
     assert!(reading.lux() > 0.0 && reading.direct_share() > 0.1 && reading.direct_share() < 0.99, "{reading:?}");
 }

@@ -1,0 +1,50 @@
+//! What a bake uses beside its settings: a device, kept rows, and an observer.
+
+use crate::baked::{BakedScene, VertexLight};
+use crate::base::progress::{Progress, Unwatched};
+use crate::form_factor::row_cache::RowCache;
+use crate::gpu::Gpu;
+
+/// Observes a bake: its progress, its mesh and the light so far.
+///
+/// [`on_mesh`](Self::on_mesh) is called first, and again whenever the mesh is refined; [`on_light`](Self::on_light) follows
+/// whenever [`is_light_due`](Self::is_light_due) returns true, always for the last mesh. All calls are made on the thread
+/// that bakes. The bake ends early if [`Progress::is_cancelled`] returns true, and keeps what is solved.
+pub trait BakeObserver: Progress {
+    /// The mesh that light lies on from now on, with the light that is known.
+    fn on_mesh(&self, _mesh: &BakedScene) {}
+    /// True if a new estimate of the light shall be passed to [`on_light`](Self::on_light).
+    fn is_light_due(&self) -> bool {
+        false
+    }
+    /// The light so far, with the ambient estimate of the unshot power.
+    fn on_light(&self, _estimate: &VertexLight) {}
+}
+
+impl BakeObserver for Unwatched {}
+
+/// What a bake uses beside its settings. The default is the CPU alone, without kept rows or an observer.
+#[derive(Clone, Copy)]
+pub struct BakeContext<'a> {
+    /// Device that draws hemicubes; `None` computes form factors by rays.
+    pub gpu: Option<&'a Gpu>,
+    /// File of form-factor rows: rows in it are read, rows that are missing are added. A stopped bake continues from it, and
+    /// a bake with other colours or lamps reuses most of it.
+    pub row_cache: Option<&'a RowCache>,
+    /// Follows the bake and may cancel it.
+    pub observer: &'a dyn BakeObserver,
+}
+
+impl<'a> BakeContext<'a> {
+    /// A context with a device that draws hemicubes.
+    #[must_use]
+    pub fn on(gpu: &'a Gpu) -> Self {
+        Self { gpu: Some(gpu), ..Self::default() }
+    }
+}
+
+impl Default for BakeContext<'_> {
+    fn default() -> Self {
+        Self { gpu: None, row_cache: None, observer: &Unwatched }
+    }
+}

@@ -1,0 +1,153 @@
+//! The report of a bake, written by `--report` as one flat JSON object.
+
+use glam::DVec3;
+use serde::Serialize;
+
+use super::memory::Memory;
+use super::row_quality::Closure;
+use super::seconds::Seconds;
+use crate::bake::settings::{BakeSettings, Method, Quality, Solver};
+use crate::base::colour::LUMINANCE;
+use crate::gpu::Gpu;
+use crate::patch::PatchMesh;
+use crate::radiosity::solver::Energy;
+use crate::scene::Scene;
+
+/// Counts, balances and times of a bake. In JSON the fields of its parts lie side by side, in this order.
+#[derive(Clone, Debug, Serialize)]
+pub struct Report {
+    /// What was baked, and how.
+    #[serde(flatten)]
+    pub configuration: Configuration,
+    /// Sizes of the scene and of its final mesh.
+    #[serde(flatten)]
+    pub mesh: MeshCounts,
+    /// How much work it took, and what is left of it.
+    #[serde(flatten)]
+    pub work: Work,
+    /// Where the light went, luminous flux in lumen.
+    pub energy: Flux,
+    /// Measures of the quality of the solution.
+    #[serde(flatten)]
+    pub certificate: Certificate,
+    /// Seconds by stage.
+    pub seconds: Seconds,
+    /// Memory, bytes.
+    pub memory_bytes: Memory,
+}
+
+/// What was baked, and how.
+#[derive(Clone, Debug, Serialize)]
+pub struct Configuration {
+    /// Name of the scene.
+    pub scene: String,
+    /// Preset.
+    pub quality: Quality,
+    /// How form factors were computed.
+    pub method: Method,
+    /// How the system was solved.
+    pub solver: Solver,
+    /// Name of the device, or `none`.
+    pub adapter: String,
+}
+
+impl Configuration {
+    /// The configuration of a bake by `method`.
+    pub(in crate::bake) fn new(scene: &Scene, settings: &BakeSettings, method: Method, gpu: Option<&Gpu>) -> Self {
+        Self {
+            scene: scene.name.clone(),
+            quality: settings.quality,
+            method,
+            solver: settings.solver,
+            adapter: gpu.map_or_else(|| "none".to_owned(), Gpu::name),
+        }
+    }
+}
+
+/// Sizes of a scene and of its final mesh.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshCounts {
+    /// Triangles of the scene.
+    pub input_triangles: usize,
+    /// Elements, which receive light.
+    pub elements: usize,
+    /// Patches, which shoot light.
+    pub patches: usize,
+    /// Light vertices, at which light is stored.
+    pub vertices: usize,
+    /// Names of the light groups.
+    pub light_groups: Vec<String>,
+}
+
+impl MeshCounts {
+    /// Counts of a scene and its mesh.
+    pub(in crate::bake) fn new(scene: &Scene, mesh: &PatchMesh) -> Self {
+        Self {
+            input_triangles: scene.triangles.len(),
+            elements: mesh.elements.len(),
+            patches: mesh.patches.len(),
+            vertices: mesh.light_vertices.len(),
+            light_groups: scene.light_groups.clone(),
+        }
+    }
+}
+
+/// How much work a bake took, and what is left of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct Work {
+    /// Hemicubes or hemispheres sampled, for patches and vertices.
+    pub hemicubes: usize,
+    /// Width of the hemicubes of the final gather, pixels.
+    pub hemicube_px: u32,
+    /// Number of shots; a patch may shoot several times.
+    pub shots: usize,
+    /// Shots per patch, Jacobi passes (the last adds the light of that many reflections) or Gauss-Seidel sweeps.
+    pub passes: usize,
+    /// Share of the first reflected power that was not shot.
+    pub unshot_share: f64,
+    /// True if the bake was cancelled before its end.
+    pub cancelled: bool,
+}
+
+/// Measures of the quality of a solution.
+#[derive(Clone, Debug, Serialize)]
+pub struct Certificate {
+    /// Share of the patches' views that ends on surfaces that receive light.
+    pub closure: Closure,
+    /// How far the form factors between patches are from A_i F_ij = A_j F_ji.
+    pub reciprocity_residual: f64,
+    /// Largest step of light between two vertices of an element, relative to the brighter one.
+    pub largest_neighbour_step: f32,
+    /// Mean share of back faces in the views of the final gather.
+    pub backface_share: f32,
+    /// Vertices inside or behind a solid.
+    pub hidden_vertices: usize,
+}
+
+/// Luminous flux, lumen.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Flux {
+    /// Arrived at surfaces straight from the lights.
+    pub emitted: f64,
+    /// Absorbed by surfaces.
+    pub absorbed: f64,
+    /// Reflected but not shot.
+    pub unshot: f64,
+    /// Left the scene.
+    pub escaped: f64,
+    /// Share of the emitted power that is missing from the balance, in the worst channel.
+    pub imbalance: f64,
+}
+
+impl From<Energy> for Flux {
+    fn from(energy: Energy) -> Self {
+        let flux = |power: DVec3| power.dot(LUMINANCE.as_dvec3());
+        Self {
+            emitted: flux(energy.emitted),
+            absorbed: flux(energy.absorbed),
+            unshot: flux(energy.unshot),
+            escaped: flux(energy.escaped),
+            imbalance: energy.imbalance(),
+        }
+    }
+}
