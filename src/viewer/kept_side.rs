@@ -6,8 +6,8 @@ use egui::{ClippedPrimitive, Rect};
 use egui_wgpu::ScreenDescriptor;
 
 use crate::gpu::Gpu;
+use crate::viewer::panels::shapes::{EMPTY, PanelShapes, begin_pass};
 use crate::viewer::picture::texture::{new_texture, view_of};
-use crate::viewer::window::panel_shapes::{EMPTY, PanelShapes, begin_pass};
 
 /// The side panel as it was painted last.
 #[derive(Default)]

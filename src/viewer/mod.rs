@@ -5,29 +5,32 @@
 //! | room | what |
 //! |---|---|
 //! | [`camera`] | pose and movement of the camera, walking, collision |
-//! | [`settings`], [`preferences`], [`action`] | what the user sets, what is kept between runs, what keys and panels request |
-//! | [`solution`] | the solved light, and what is computed from it: lux meter, patch view, traced view, recording |
+//! | [`settings`], [`preferences`], `action` | what the user sets, what is kept between runs, what keys and panels request |
+//! | `solution` | the solved light, and what is computed from it: lux meter, patch view, traced view, recording |
 //! | `job` | threads that compute those |
-//! | [`picture`], `software` | the picture of the scene, and what only a software driver needs |
+//! | [`picture`] | what a picture of the scene shows |
 //! | [`session`] | the open scene, and the worker that loads and bakes it |
 //! | [`panels`] | the panels |
-//! | [`window`] | events, actions, frames |
+//! | `software` | what only a software driver needs |
+//! | [`drawing`] | what draws the picture |
+//! | `window` | events, actions, frames |
 //!
 //! Deliberately absent: any light of its own; everything that is drawn comes from [`crate::render`].
 
-pub mod action;
 pub mod camera;
-pub mod options;
+pub mod drawing;
 pub mod panels;
 pub mod picture;
 pub mod preferences;
 pub mod session;
 pub mod settings;
-pub mod solution;
-pub mod window;
 
+mod action;
 mod background;
 mod job;
+mod options;
+mod solution;
+mod window;
 
 pub mod kept_side;
 mod motion;

@@ -1,5 +1,5 @@
-//! A picture that nobody sees, drawn before the first one that somebody does: a driver that draws on the processor
-//! compiles shaders when they first draw, which would hold up a walk that has just begun.
+//! A small picture that nobody sees, drawn before the first one that is shown: a software driver compiles shaders when they
+//! first draw, which would otherwise interrupt the first movement.
 
 use std::sync::Arc;
 
@@ -8,18 +8,18 @@ use crate::gpu::Gpu;
 use crate::render::scene::SceneBuffers;
 use crate::render::{RenderSettings, ShadowScene, View};
 use crate::scene::builtin;
-use crate::viewer::picture::canvas::Canvas;
-use crate::viewer::picture::content::{Detail, PictureContent};
+use crate::viewer::picture::content::PictureContent;
 
-/// Sides that are no powers of two: drivers may compile for those apart.
+/// Width and height, pixels. They are not powers of two, for which drivers may compile other shaders.
 const SIZE: [u32; 2] = [90, 60];
 
-/// Draws the Cornell box as a sketch and as it looks at rest.
-pub fn warm_up(gpu: &Gpu, canvas: &mut Canvas) {
+/// The Cornell box without light.
+#[must_use]
+pub fn warm_up_content(gpu: &Gpu) -> Option<PictureContent> {
     let dark = BakedScene::dark(builtin::cornell());
-    let Some(camera) = dark.scene.cameras.first() else { return };
-    let content = PictureContent {
-        view: View::from_camera(camera, SIZE[0] as f32 / SIZE[1] as f32),
+    let view = View::from_camera(dark.scene.cameras.first()?, SIZE[0] as f32 / SIZE[1] as f32);
+    Some(PictureContent {
+        view,
         scene: Arc::new(SceneBuffers::new(gpu, &dark)),
         shadows: Arc::new(ShadowScene::new(gpu, Arc::new(dark.scene))),
         light: 0,
@@ -27,11 +27,5 @@ pub fn warm_up(gpu: &Gpu, canvas: &mut Canvas) {
         compared_shadows: None,
         overlay: None,
         size: SIZE,
-    };
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("warm-up") });
-    for detail in [Detail::Plain, Detail::Sketch] {
-        canvas.draw(gpu, &mut encoder, content.clone(), detail, None);
-    }
-    gpu.queue.submit([encoder.finish()]);
-    canvas.forget();
+    })
 }

@@ -7,7 +7,7 @@ use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{RenderSettings, ShadowScene, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::builtin;
-use hemicube::viewer::picture::canvas::Canvas;
+use hemicube::viewer::drawing::canvas::Canvas;
 use hemicube::viewer::picture::content::{Detail, PictureContent};
 use hemicube::viewer::settings::comparison::{ComparedShadows, ComparisonLayout};
 use wgpu::{CommandEncoderDescriptor, TextureFormat};

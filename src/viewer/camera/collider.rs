@@ -36,15 +36,6 @@ pub struct Pick {
     pub triangle: TriangleId,
 }
 
-/// Contact of a ball with a surface.
-#[derive(Clone, Copy, Debug)]
-pub struct Touch {
-    /// Point of the surface nearest to the centre of the ball.
-    pub point: Vec3,
-    /// Its distance from the centre, metres.
-    pub distance: f32,
-}
-
 /// The surface hit by a vertical ray.
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
@@ -126,8 +117,8 @@ impl Collider {
         (hit.t < length).then_some(hit)
     }
 
-    /// Calls `touch` for each triangle within `radius` of `centre`, with its nearest point.
-    pub fn touches(&self, centre: Vec3, radius: f32, mut touch: impl FnMut(Touch)) {
+    /// Calls `touch` with the nearest point of each triangle within `radius` of `centre`.
+    pub fn touches(&self, centre: Vec3, radius: f32, mut touch: impl FnMut(Vec3)) {
         let reach = Vec3A::splat(radius);
         let near = Aabb::new(Vec3A::from(centre) - reach, Vec3A::from(centre) + reach);
         self.tree.aabb_traverse(near, |tree, node| {
@@ -135,9 +126,8 @@ impl Collider {
             let range = node.first_index as usize..(node.first_index + node.prim_count) as usize;
             for triangle in &self.triangles[range] {
                 let point = closest_point([triangle.v0, triangle.v1, triangle.v2].map(Vec3::from), centre);
-                let distance = point.distance(centre);
-                if distance < radius {
-                    touch(Touch { point, distance });
+                if point.distance(centre) < radius {
+                    touch(point);
                 }
             }
             true

@@ -1,10 +1,11 @@
 //! The camera of the viewer: its pose, its movement, and the surfaces that a walker collides with.
 //!
-//! Deliberately absent: keys and mouse buttons ([`super::window`] turns them into a [`controller::MotionInput`]), windows
-//! and clocks.
+//! Deliberately absent: windows, clocks, keys and mouse buttons; `window::input` turns keys into a `MotionInput`.
 
-pub mod collider;
-pub mod controller;
-pub mod glide;
 pub mod pose;
-pub mod walk;
+
+pub(super) mod collider;
+pub(super) mod controller;
+
+mod glide;
+mod walk;

@@ -12,6 +12,7 @@ mod measurement;
 mod overlay;
 mod picture;
 mod scene;
+pub mod shapes;
 mod solution;
 
 pub use chrome::message::{Notice, Trouble};

@@ -1,14 +1,8 @@
-//! The picture behind the panels: what it shows, when it is drawn anew, and the renderers that draw it.
-//!
-//! Deliberately absent: passes; every picture is drawn by [`crate::render`].
+//! What a picture of the scene shows: its content, the marks over it, and the scene on the device.
 
-pub mod canvas;
 pub mod content;
-pub mod marks;
 
-pub(super) mod comparison;
+pub(super) mod marks;
 pub(super) mod marks_cache;
-pub(super) mod picture_file;
-pub(super) mod scene_renderer;
 pub(super) mod texture;
 pub(super) mod uploaded_scene;

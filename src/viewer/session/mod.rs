@@ -5,9 +5,9 @@ mod file_watch;
 mod state;
 pub(super) mod worker;
 
-pub mod advice;
 pub mod light_state;
 
+pub(super) mod advice;
 pub(super) mod open_scene;
 pub(super) mod source;
 pub(super) mod user_event;

@@ -1,7 +1,8 @@
 //! What the user sets in the panels and with keys: plain values that the panels edit and everything else reads.
 
 pub mod comparison;
-pub mod light;
-pub mod picture_file;
-pub mod tool;
 pub mod view;
+
+pub(super) mod light;
+pub(super) mod picture_file;
+pub(super) mod tool;

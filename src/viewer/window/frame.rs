@@ -6,10 +6,10 @@ use winit::event_loop::ControlFlow;
 
 use crate::viewer::action::Action;
 use crate::viewer::job::JobKind;
+use crate::viewer::panels::shapes::PanelShapes;
 use crate::viewer::panels::{BakeFacts, CameraFacts, Facts, MeasurementFacts, PictureFacts, SceneFacts, ShadowFacts};
 use crate::viewer::session::worker::Worker;
 use crate::viewer::settings::view::Tab;
-use crate::viewer::window::panel_shapes::PanelShapes;
 use crate::viewer::window::surface::FrameOutcome;
 use crate::viewer::window::viewer::Viewer;
 

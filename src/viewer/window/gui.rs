@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use winit::event::WindowEvent;
 use winit::window::Window;
 
+use crate::viewer::panels::shapes::PanelShapes;
 use crate::viewer::panels::theme;
-use crate::viewer::window::panel_shapes::PanelShapes;
 
 /// egui and its connection to the window.
 pub struct Gui {

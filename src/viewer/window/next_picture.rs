@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 
 use crate::render::View;
 use crate::render::shadow::known_fault;
+use crate::viewer::drawing::canvas::Change;
 use crate::viewer::job::{JobKind, JobResult};
-use crate::viewer::picture::canvas::Change;
 use crate::viewer::picture::content::{Detail, NextPicture, PictureContent};
 use crate::viewer::picture::marks_cache::MarkSelection;
 use crate::viewer::settings::view::Tab;

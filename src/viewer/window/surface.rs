@@ -9,11 +9,10 @@ use winit::window::Window;
 
 use crate::gpu::Gpu;
 use crate::render::shadow::Batch;
+use crate::viewer::drawing::canvas::Canvas;
 use crate::viewer::kept_side::KeptSide;
-use crate::viewer::picture::canvas::Canvas;
+use crate::viewer::panels::shapes::{EMPTY, PanelShapes, begin_pass};
 use crate::viewer::picture::content::NextPicture;
-use crate::viewer::warm_up::warm_up;
-use crate::viewer::window::panel_shapes::{EMPTY, PanelShapes, begin_pass};
 
 /// Most attempts to configure the surface.
 const MAX_ATTEMPTS: usize = 1000;
@@ -58,7 +57,7 @@ impl WindowSurface {
         configure(&gpu, &surface, &config);
         let mut canvas = Canvas::new(&gpu, config.format);
         if canvas.is_slow() {
-            warm_up(&gpu, &mut canvas);
+            canvas.warm_up(&gpu);
         }
         // Panels of plain colours need no dithering, which takes a software driver longer than the panels themselves.
         let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };

@@ -160,8 +160,8 @@ impl Walker {
         let mut deepest: Option<Vec3> = None;
         for ball in 0..=num_balls {
             let centre = feet + Vec3::Y * (lowest + (highest - lowest) * ball as f32 / num_balls as f32);
-            collider.touches(centre, radius, |touch| {
-                let away = centre - touch.point;
+            collider.touches(centre, radius, |point| {
+                let away = centre - point;
                 let level = away.with_y(0.0).length();
                 // Floors and ceilings act up and down only; rays handle those.
                 if level < 1e-3 * radius {

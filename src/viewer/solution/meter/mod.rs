@@ -8,7 +8,7 @@ mod reading;
 mod table;
 
 pub use grid::{Grid, GridPlan};
-pub use reading::{GroupReading, Reading, SurfaceReading, point_of, read};
+pub use reading::{Reading, point_of, read};
 pub use table::write_table;
 
 #[cfg(test)]

@@ -7,8 +7,8 @@ use anyhow::Context;
 
 use crate::baked;
 use crate::render::Picture;
+use crate::viewer::drawing::picture_file::{self, next_path};
 use crate::viewer::job::JobKind;
-use crate::viewer::picture::picture_file::{self, next_path};
 use crate::viewer::session::open_scene::OpenScene;
 use crate::viewer::settings::picture_file::PictureSettings;
 use crate::viewer::solution::file_names::next_free_name;

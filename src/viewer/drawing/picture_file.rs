@@ -11,7 +11,7 @@ use crate::raytrace::{Ambient, TwoPassSettings, two_pass};
 use crate::render::{Picture, RenderSettings, picture_in_light, tone_map_on_cpu};
 use crate::scene::Camera;
 use crate::trace::Tracer;
-use crate::viewer::picture::scene_renderer::SAMPLES;
+use crate::viewer::drawing::scene_renderer::SAMPLES;
 use crate::viewer::picture::uploaded_scene::UploadedScene;
 use crate::viewer::settings::light::GroupDial;
 use crate::viewer::settings::picture_file::PictureSettings;

@@ -9,12 +9,13 @@ use crate::gpu::stopwatch::Laps;
 use crate::gpu::{Gpu, Stopwatch};
 use crate::render::OverlayPass;
 use crate::render::shadow::Batch;
-use crate::viewer::picture::comparison::DifferenceHeatMap;
+use crate::viewer::drawing::comparison::DifferenceHeatMap;
+use crate::viewer::drawing::scene_renderer::SceneRenderer;
 use crate::viewer::picture::content::{Detail, PictureContent};
-use crate::viewer::picture::scene_renderer::SceneRenderer;
 use crate::viewer::picture::texture::{new_texture, view_of, write};
 use crate::viewer::settings::comparison::{ComparedShadows, ComparisonLayout};
 use crate::viewer::solution::traced_view::TracedView;
+use crate::viewer::warm_up::warm_up_content;
 
 /// The difference between the last picture and the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +67,17 @@ impl Canvas {
             watch: None,
             laps: Laps::default(),
         }
+    }
+
+    /// Draws a picture that nobody sees as a sketch and as it is at rest, so that a software driver compiles its shaders.
+    pub fn warm_up(&mut self, gpu: &Gpu) {
+        let Some(content) = warm_up_content(gpu) else { return };
+        let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("warm-up") });
+        for detail in [Detail::Plain, Detail::Sketch] {
+            self.draw(gpu, &mut encoder, content.clone(), detail, None);
+        }
+        gpu.queue.submit([encoder.finish()]);
+        self.forget();
     }
 
     /// What has to be drawn anew to show `content`.
