@@ -17,21 +17,13 @@ use glam::Vec3;
 use hemicube::baked::{BakedScene, VertexLight};
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
+use hemicube::render::shadow::TechniqueInfo;
 use hemicube::render::{Exposure, RenderSettings, Renderer, ShadowScene, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::{Camera, Light, Scene, builtin, gltf};
 
 const SIZE: [u32; 2] = [1280, 720];
 /// Frames of which the best counts.
 const FRAMES: usize = 8;
-
-const TECHNIQUES: [(ShadowTechnique, &str); 6] = [
-    (ShadowTechnique::None, "none"),
-    (ShadowTechnique::Map, "map"),
-    (ShadowTechnique::VolumeDepthPass, "volume-depth-pass"),
-    (ShadowTechnique::VolumeDepthFail, "volume-depth-fail"),
-    (ShadowTechnique::Planar, "planar"),
-    (ShadowTechnique::Raytraced, "raytraced"),
-];
 
 fn main() -> anyhow::Result<()> {
     let paths: Vec<String> = std::env::args().skip(1).filter(|arg| arg != "--bench").collect();
@@ -59,7 +51,7 @@ fn bench(gpu: &Gpu, scene: Scene) {
     let stored = stage.milliseconds(gpu, None);
     let one_map = under_spot.milliseconds(gpu, Some(&map));
     let mut times = Vec::new();
-    for (technique, name) in TECHNIQUES {
+    for TechniqueInfo { technique, name, .. } in ShadowTechnique::ALL {
         let time = stage.milliseconds(gpu, Some(&ShadowSettings::new(technique)));
         times.push(time);
         println!("{name:<18} {time:>8.1} ms  {:>6.2} x none", time / times[0]);

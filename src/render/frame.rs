@@ -6,9 +6,8 @@ use std::sync::Arc;
 use super::display::light_meter::{LightMeter, Metered};
 use super::display::tone_map::ToneMapPass;
 use super::frame_uniform::{frame_bind_group, frame_layout};
-use super::shadow::ShadowScene;
 use super::shadow::debug::DebugPass;
-use super::shadow::real_time::{RealTimeLight, Subject};
+use super::shadow::{FrameContext, RealTimeLight, ShadowScene};
 use super::stored_light::light_tiles::TileFiller;
 use super::stored_light::weighted_light::WeightedLight;
 use super::surface::direct_source::DirectSource;
@@ -78,8 +77,8 @@ impl Renderer {
             _ => false,
         };
         if !is_same {
-            self.live.iter_mut().for_each(RealTimeLight::forget);
-            self.debug.iter_mut().for_each(DebugPass::forget);
+            self.live.iter_mut().for_each(RealTimeLight::clear_scene);
+            self.debug.iter_mut().for_each(DebugPass::clear_scene);
         }
         self.shadows = shadows;
     }
@@ -121,19 +120,12 @@ impl Renderer {
         render_settings: &RenderSettings,
     ) {
         let (Some(settings), Some(shadows)) = (&render_settings.shadows, &self.shadows) else { return };
-        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, render_settings);
-        let seen = &scene.in_view(gpu, &view.cull_view(render_settings));
-        let subject = Subject {
-            frame: &frame,
-            scene,
-            seen,
-            shadows,
-            view,
-            settings: render_settings,
-            watch: self.watch.as_deref(),
-        };
+        let bindings = &frame_bind_group(gpu, &self.frame_layout, scene, view, render_settings);
+        let in_view = &scene.in_view(gpu, &view.cull_view(render_settings));
+        let stopwatch = self.watch.as_deref();
+        let frame = FrameContext { gpu, bindings, size, scene, in_view, shadows, view, render_settings, stopwatch };
         let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
-        live.draw(gpu, encoder, size, subject, settings);
+        live.draw(encoder, frame, settings);
     }
 
     /// Records a picture of `scene` into the whole of `target`, which is `size` pixels wide and high.
@@ -155,21 +147,23 @@ impl Renderer {
         // The light of the vertices, each group as bright as wanted.
         let stored = self.weighted.of(gpu, encoder, &frame, scene, render_settings).clone();
         let seen = &scene.in_view(gpu, &view.cull_view(render_settings));
-        let subject = self.shadows.as_ref().map(|shadows| Subject {
-            frame: &frame,
+        let frame_context = self.shadows.as_ref().map(|shadows| FrameContext {
+            gpu,
+            bindings: &frame,
+            size,
             scene,
-            seen,
+            in_view: seen,
             shadows,
             view,
-            settings: render_settings,
-            watch: self.watch.as_deref(),
+            render_settings,
+            stopwatch: self.watch.as_deref(),
         });
         let lap =
             |encoder: &mut wgpu::CommandEncoder, name| self.watch.iter().for_each(|watch| watch.lap(encoder, name));
         // Light from the lights themselves, each in its shadows: their number and maps, or irradiance at the pixels.
-        let live = render_settings.shadows.as_ref().zip(subject).map(|(settings, subject)| {
+        let live = render_settings.shadows.as_ref().zip(frame_context).map(|(settings, frame_context)| {
             let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
-            live.draw(gpu, encoder, size, subject, settings)
+            live.draw(encoder, frame_context, settings)
         });
         if live.is_none() {
             self.live.iter_mut().for_each(RealTimeLight::release_targets);
@@ -207,12 +201,12 @@ impl Renderer {
         }
 
         // What shadows work with.
-        if let (Some(debug), Some(subject)) = (render_settings.shadow_debug, subject) {
+        if let (Some(debug), Some(frame_context)) = (render_settings.shadow_debug, frame_context) {
             let pass = self.debug.get_or_insert_with(|| DebugPass::new(gpu, &self.frame_layout, self.output_format));
-            pass.draw(gpu, encoder, target, size, subject, debug);
+            pass.draw(encoder, target, frame_context, debug);
         }
 
-        self.shadows.iter().for_each(|shadows| shadows.forget_unused());
+        self.shadows.iter().for_each(|shadows| shadows.drop_unused());
         // Where a pixel has one sample, pictures of a movement may change their size back and forth.
         self.targets.insert(0, targets);
         self.targets.truncate(if self.samples == 1 { 2 } else { 1 });

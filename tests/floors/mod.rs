@@ -18,7 +18,7 @@ use crate::support::sources::files_below;
 const KNOWN_CIRCLES: &[&str] = &["bake", "baked/coarse", "baked/gltf", "lightmap", "render"];
 
 /// Folders that may still hold too many files.
-const KNOWN_CROWDS: &[&str] = &["src/render/shadow"];
+const KNOWN_CROWDS: &[&str] = &[];
 
 /// The code files with this extension below `folder` of the project, by their path relative to it, with slashes.
 fn listed(folder: &str, extension: &str) -> Vec<(String, PathBuf)> {

@@ -30,21 +30,34 @@ const FLOORS: [(&str, f32); 15] = [
 /// Files that are not named, such as the settings that gather those of each technique, are free.
 pub type Rooms<'a> = (&'a str, &'a [&'a [&'a str]]);
 
-pub const ROOMS: &[Rooms<'_>] = &[(
-    "viewer",
-    &[
-        &["background", "options", "camera"],
-        &["settings"],
-        &["action", "preferences", "solution"],
-        &["job", "picture"],
-        &["session"],
-        &["panels"],
-        &["motion"],
-        &["kept_side", "quick", "warm_up"],
-        &["drawing"],
-        &["window"],
-    ],
-)];
+pub const ROOMS: &[Rooms<'_>] = &[
+    (
+        "viewer",
+        &[
+            &["background", "options", "camera"],
+            &["settings"],
+            &["action", "preferences", "solution"],
+            &["job", "picture"],
+            &["session"],
+            &["panels"],
+            &["motion"],
+            &["kept_side", "quick", "warm_up"],
+            &["drawing"],
+            &["window"],
+        ],
+    ),
+    (
+        "render/shadow",
+        &[
+            &["shared"],
+            &["light"],
+            &["map", "volume", "planar", "raytraced", "cutout"],
+            &["dispatch", "few_lights"],
+            &["real_time"],
+            &["debug", "comparison"],
+        ],
+    ),
+];
 
 /// Where wgpu may be named.
 const WGPU_FOLDERS: [&str; 4] = ["gpu/", "form_factor/hemicube/", "render/", "viewer/"];

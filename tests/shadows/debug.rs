@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use hemicube::gpu::Gpu;
 use hemicube::render::shadow::debug::count_colour;
-use hemicube::render::shadow::silhouette::{facing, silhouette};
+use hemicube::render::shadow::volume::silhouette::{facing, silhouette};
 use hemicube::render::shadow::{DebugView, ShadowDebug};
 use hemicube::render::{Exposure, Picture, RenderSettings, ShadowSettings, ShadowTechnique, picture_in_light};
 

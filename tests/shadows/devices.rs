@@ -5,7 +5,7 @@ use std::sync::Arc;
 use hemicube::baked::{BakedScene, VertexLight};
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::shadow::{Case, Decisions, Judge, shadow_difference};
+use hemicube::render::shadow::{ComparedScene, Decisions, ShadowComparison, shadow_difference};
 use hemicube::render::{ShadowScene, ShadowTechnique, View};
 
 use super::stage::{SIZE, Stage, at, num_different, places, raytraced, settings};
@@ -31,9 +31,9 @@ fn case_24_without_optional_formats_shadows_are_as_exact() {
     let scene = &SceneBuffers::new(gpu, &baked);
     let shadows = &ShadowScene::new(gpu, Arc::new(baked.scene));
     let view = &View::from_camera(&stage.camera, SIZE[0] as f32 / SIZE[1] as f32);
-    let mut judge = Judge::new(gpu);
+    let mut comparison = ShadowComparison::new(gpu);
     let mut decide = |settings| -> Decisions {
-        judge.decisions(gpu, Case { scene, shadows, view, size: SIZE }, &settings).expect("decisions")
+        comparison.decisions(gpu, ComparedScene { scene, shadows, view, size: SIZE }, &settings).expect("decisions")
     };
     let truth = decide(raytraced());
     let dark = truth.samples[0].lit.iter().filter(|lit| !**lit).count();

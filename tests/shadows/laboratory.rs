@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::Vec3;
 use hemicube::base::ids::{GroupId, InstanceId, TriangleId};
 use hemicube::gpu::{Gpu, Stopwatch};
-use hemicube::render::shadow::{Batch, KnownFault, known_fault, num_batches};
+use hemicube::render::shadow::{KnownFault, SampleBatch, known_fault, num_batches};
 use hemicube::render::{Exposure, RenderSettings, Renderer, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::{Instance, Light, LightKind, Material};
 
@@ -66,7 +66,7 @@ fn light_that_is_added_up_in_parts_is_the_light_of_all_points_at_once() {
         let mut easel = Easel::new(gpu, &shot);
         for number in 0..num_batches(per_lamp) {
             for (first, count, is_partial) in [(0, 40, true), (40, 24, false)] {
-                let batch = Some(Batch { number, first, count });
+                let batch = Some(SampleBatch { number, first, count });
                 let part = ShadowSettings { light_samples: per_lamp, batch, ..settings(technique) };
                 easel.add(gpu, &shot, &part, is_partial);
             }

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use hemicube::baked::VertexLight;
 use hemicube::base::ids::GroupId;
-use hemicube::render::shadow::{Batch, Decisions, shadow_difference};
+use hemicube::render::shadow::{Decisions, SampleBatch, shadow_difference};
 use hemicube::render::{ShadowSettings, ShadowTechnique};
 use hemicube::scene::{Light, LightKind, Material, builtin};
 
@@ -80,7 +80,7 @@ fn the_surface_pass_adds_the_light_of_a_few_lamps_as_passes_of_their_own_do() {
         for technique in [ShadowTechnique::Map, ShadowTechnique::None] {
             let mut at_once = settings(technique);
             at_once.maps.normal_offset = if num_lamps == 1 { 1.0 } else { 0.0 };
-            let in_passes = ShadowSettings { batch: Some(Batch::whole(0)), ..at_once.clone() };
+            let in_passes = ShadowSettings { batch: Some(SampleBatch::whole(0)), ..at_once.clone() };
             for samples in [1, 4] {
                 let [few, passes] = [&at_once, &in_passes].map(|settings| shot.picture(gpu, settings, samples));
                 let pairs = few.radiance.iter().zip(&passes.radiance);

@@ -8,7 +8,7 @@ use hemicube::base::ids::{InstanceId, MaterialId};
 use hemicube::gpu::Gpu;
 use hemicube::render::picture_in_light;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::shadow::{Case, Decisions, Judge, ShadowDifference, shadow_difference};
+use hemicube::render::shadow::{ComparedScene, Decisions, ShadowComparison, ShadowDifference, shadow_difference};
 use hemicube::render::{
     Exposure, Picture, RenderSettings, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View,
 };
@@ -172,22 +172,22 @@ pub struct Shot {
 
 impl Shot {
     pub fn decisions(&self, gpu: &Gpu, settings: &ShadowSettings) -> Decisions {
-        self.ask(gpu, |judge, case| judge.decisions(gpu, case, settings).expect("decisions"))
+        self.compare(gpu, |comparison, scene| comparison.decisions(gpu, scene, settings).expect("decisions"))
     }
 
     /// What the stencil counts for the first light sample.
     pub fn stencil(&self, gpu: &Gpu, settings: &ShadowSettings) -> Vec<u8> {
-        self.ask(gpu, |judge, case| judge.stencil(gpu, case, settings, 0).expect("a stencil"))
+        self.compare(gpu, |comparison, scene| comparison.stencil(gpu, scene, settings, 0).expect("a stencil"))
     }
 
-    fn ask<T>(&self, gpu: &Gpu, of: impl FnOnce(&mut Judge, Case<'_>) -> T) -> T {
+    fn compare<T>(&self, gpu: &Gpu, of: impl FnOnce(&mut ShadowComparison, ComparedScene<'_>) -> T) -> T {
         let size = self.size;
         let view = &View::from_camera(&self.camera, size[0] as f32 / size[1] as f32);
-        let case = Case { scene: &self.buffers, shadows: &self.shadows, view, size };
+        let scene = ComparedScene { scene: &self.buffers, shadows: &self.shadows, view, size };
         // Passes are made once: a driver that draws on the CPU compiles them, and that takes longer than a test.
-        static JUDGE: OnceLock<Mutex<Judge>> = OnceLock::new();
-        let judge = JUDGE.get_or_init(|| Mutex::new(Judge::new(gpu)));
-        of(&mut judge.lock().unwrap_or_else(PoisonError::into_inner), case)
+        static COMPARISON: OnceLock<Mutex<ShadowComparison>> = OnceLock::new();
+        let comparison = COMPARISON.get_or_init(|| Mutex::new(ShadowComparison::new(gpu)));
+        of(&mut comparison.lock().unwrap_or_else(PoisonError::into_inner), scene)
     }
 
     /// Share of pixels that differ from the truth.

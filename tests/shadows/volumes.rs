@@ -2,9 +2,10 @@
 
 use glam::{Mat4, Quat, Vec3, Vec4};
 use hemicube::render::ShadowTechnique;
-use hemicube::render::shadow::casters::Casters;
 use hemicube::render::shadow::shadow_difference;
-use hemicube::render::shadow::silhouette::{Counting, facing, hull};
+use hemicube::render::shadow::shared::casters::Casters;
+use hemicube::render::shadow::volume::hull::{Counting, hull};
+use hemicube::render::shadow::volume::silhouette::facing;
 use hemicube::scene::{AlphaMode, LightKind, Material};
 
 use super::stage::{Stage, at, num_different, paint, raytraced, settings};

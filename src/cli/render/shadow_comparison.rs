@@ -9,8 +9,8 @@ use super::request::PictureRequest;
 use crate::baked::BakedScene;
 use crate::gpu::Gpu;
 use crate::render::scene::SceneBuffers;
-use crate::render::shadow::{Case, Judge, shadow_difference};
-use crate::render::{ShadowScene, ShadowSettings, ShadowTechnique, View, save_display};
+use crate::render::shadow::{ComparedScene, ShadowComparison};
+use crate::render::{ShadowScene, ShadowSettings, View, save_display};
 
 /// Writes a picture of the difference between two techniques and prints the share of pixels that differ.
 ///
@@ -27,14 +27,9 @@ pub fn compare_shadows(
     let buffers = SceneBuffers::new(gpu, &baked);
     let shadows = ShadowScene::new(gpu, Arc::new(baked.scene));
     let view = View::from_camera(&request.camera, size[0] as f32 / size[1] as f32);
-    let case = Case { scene: &buffers, shadows: &shadows, view: &view, size };
-    let mut judge = Judge::new(gpu);
-    let (of_a, of_b) = (judge.decisions(gpu, case, a)?, judge.decisions(gpu, case, b)?);
-    // Pixels at shadow edges of the reference may differ. The ray-traced technique is the reference, else the second.
-    let is_truth_first = a.technique == ShadowTechnique::Raytraced;
-    let (compared, reference) = if is_truth_first { (&of_b, &of_a) } else { (&of_a, &of_b) };
-    let difference = shadow_difference(compared, reference);
-    save_display(output, size, &difference.picture(reference))?;
+    let compared = ComparedScene { scene: &buffers, shadows: &shadows, view: &view, size };
+    let (difference, reference) = ShadowComparison::new(gpu).compare(gpu, compared, a, b)?;
+    save_display(output, size, &difference.picture(&reference))?;
     let num_pixels = difference.count.iter().filter(|&&count| count > 0).count();
     println!("{num_pixels} of {} pixels differ", difference.count.len());
     println!("shadow difference: {:.3} %", 100.0 * difference.share);

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::gpu::stopwatch::Laps;
 use crate::gpu::{Gpu, Stopwatch};
 use crate::render::OverlayPass;
-use crate::render::shadow::Batch;
+use crate::render::shadow::SampleBatch;
 use crate::viewer::drawing::comparison::DifferenceHeatMap;
 use crate::viewer::drawing::scene_renderer::SceneRenderer;
 use crate::viewer::picture::content::{Detail, PictureContent};
@@ -45,7 +45,7 @@ struct Picture {
     content: PictureContent,
     detail: Detail,
     /// The light samples that were added last.
-    batch: Option<Batch>,
+    batch: Option<SampleBatch>,
     texture: wgpu::Texture,
     /// The same with the compared shadows, in a split picture.
     beside: Option<wgpu::Texture>,
@@ -105,7 +105,7 @@ impl Canvas {
 
     /// The light samples that were added last.
     #[must_use]
-    pub fn batch(&self) -> Option<Batch> {
+    pub fn batch(&self) -> Option<SampleBatch> {
         self.picture.as_ref().and_then(|picture| picture.batch)
     }
 
@@ -134,7 +134,13 @@ impl Canvas {
     }
 
     /// Adds part of a batch of light samples. The picture does not change before the batch is complete.
-    pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, content: &PictureContent, batch: Batch) {
+    pub fn add_light(
+        &mut self,
+        gpu: &Gpu,
+        encoder: &mut wgpu::CommandEncoder,
+        content: &PictureContent,
+        batch: SampleBatch,
+    ) {
         self.renderer.add_light(gpu, encoder, &content.with_batch(Some(batch)));
         if let Some(ComparedShadows { settings, .. }) = &content.compared_shadows {
             let content = content.with_shadows(settings).with_batch(Some(batch));
@@ -150,7 +156,7 @@ impl Canvas {
         encoder: &mut wgpu::CommandEncoder,
         content: PictureContent,
         detail: Detail,
-        batch: Option<Batch>,
+        batch: Option<SampleBatch>,
     ) {
         if content.compared_shadows.is_none() {
             // A comparison that has ended would otherwise keep a scene and its shadow maps.

@@ -2,21 +2,21 @@
 
 use crate::base::colour::srgb_from_linear;
 use crate::gpu::Gpu;
-use crate::render::shadow::{Case, Judge, shadow_difference};
-use crate::render::{ShadowSettings, ShadowTechnique};
+use crate::render::ShadowSettings;
+use crate::render::shadow::{ComparedScene, ShadowComparison};
 use crate::viewer::picture::content::{Detail, PictureContent};
 use crate::viewer::picture::texture::write;
 
 /// Draws heat maps of the difference between two shadow techniques.
 pub struct DifferenceHeatMap {
-    judge: Judge,
+    comparison: ShadowComparison,
 }
 
 impl DifferenceHeatMap {
     /// Makes the passes; they serve every scene.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
-        Self { judge: Judge::new(gpu) }
+        Self { comparison: ShadowComparison::new(gpu) }
     }
 
     /// Fills `texture` with the heat map between the shadows of `content` and `compared`, at half the size for a sketch.
@@ -33,14 +33,9 @@ impl DifferenceHeatMap {
         let shadows = content.settings.shadows.as_ref()?;
         let step = if detail == Detail::Sketch { 2 } else { 1 };
         let size = content.size.map(|side| side.div_ceil(step));
-        let case = Case { scene: &content.scene, shadows: &content.shadows, view: &content.view, size };
-        let ours = self.judge.decisions(gpu, case, shadows).ok()?;
-        let theirs = self.judge.decisions(gpu, case, compared).ok()?;
-        // Ray-traced shadows are the reference, whichever of the two they are.
-        let is_truth = shadows.technique == ShadowTechnique::Raytraced;
-        let (tested, reference) = if is_truth { (&theirs, &ours) } else { (&ours, &theirs) };
-        let difference = shadow_difference(tested, reference);
-        let colours = difference.picture(reference);
+        let scene = ComparedScene { scene: &content.scene, shadows: &content.shadows, view: &content.view, size };
+        let (difference, reference) = self.comparison.compare(gpu, scene, shadows, compared).ok()?;
+        let colours = difference.picture(&reference);
         let pixel = |x: u32, y: u32| {
             let colour = colours[(y / step * size[0] + x / step) as usize];
             let [r, g, b] = colour.to_array().map(|channel| (255.0 * srgb_from_linear(channel)).round() as u8);

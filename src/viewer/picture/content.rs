@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::render::scene::SceneBuffers;
-use crate::render::shadow::Batch;
+use crate::render::shadow::SampleBatch;
 use crate::render::{Overlay, RenderSettings, ShadowScene, ShadowSettings, View};
 use crate::viewer::settings::comparison::ComparedShadows;
 
@@ -51,7 +51,7 @@ impl PictureContent {
 
     /// The same content lit by one batch of the light samples, or by all of them.
     #[must_use]
-    pub fn with_batch(&self, batch: Option<Batch>) -> Self {
+    pub fn with_batch(&self, batch: Option<SampleBatch>) -> Self {
         let mut content = self.clone();
         if let Some(shadows) = &mut content.settings.shadows {
             shadows.batch = batch;
@@ -67,7 +67,7 @@ pub struct NextPicture {
     /// Its level of detail.
     pub detail: Detail,
     /// The light samples that it adds, if they come in batches.
-    pub batch: Option<Batch>,
+    pub batch: Option<SampleBatch>,
     /// The batch is not complete with it: the picture does not change yet.
     pub is_partial: bool,
 }

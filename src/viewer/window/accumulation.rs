@@ -2,7 +2,7 @@
 //! stays responsive.
 
 use crate::render::ShadowSettings;
-use crate::render::shadow::{Batch, MOST_POINTS, num_batches};
+use crate::render::shadow::{MOST_POINTS, SampleBatch, num_batches};
 use crate::viewer::picture::content::{Detail, NextPicture, PictureContent};
 use crate::viewer::settings::comparison::ComparisonLayout;
 use crate::viewer::window::viewer::Viewer;
@@ -27,17 +27,17 @@ impl Viewer {
     }
 
     /// The batch of the first picture at rest.
-    pub fn begin_batches(&mut self) -> Batch {
+    pub fn begin_batches(&mut self) -> SampleBatch {
         self.pacer.request();
         self.picture.refinement.samples_per_frame = 1;
-        Batch::whole(0)
+        SampleBatch::whole(0)
     }
 
     /// The picture with the next light samples; `None` if all have been added.
     pub fn more_light(&mut self, content: &PictureContent) -> Option<NextPicture> {
         let settings = content.settings.shadows.as_ref()?;
         let last = self.surface.canvas.batch().filter(|_| self.adds_up(content))?;
-        let in_batch = |number| ShadowSettings { batch: Some(Batch::whole(number)), ..settings.clone() };
+        let in_batch = |number| ShadowSettings { batch: Some(SampleBatch::whole(number)), ..settings.clone() };
         let length = |number| in_batch(number).samples(&content.shadows).len();
         let is_complete = last.first.saturating_add(last.count) >= length(last.number);
         let (number, first) = if is_complete { (last.number + 1, 0) } else { (last.number, last.first + last.count) };
@@ -54,7 +54,7 @@ impl Viewer {
         let count = (*samples_per_frame).min(length(number).saturating_sub(first).max(1));
         self.pacer.request();
         let is_partial = first + count < length(number);
-        let batch = Some(Batch { number, first, count });
+        let batch = Some(SampleBatch { number, first, count });
         Some(NextPicture { content: content.clone(), detail: Detail::Fine, batch, is_partial })
     }
 

@@ -8,7 +8,7 @@ use winit::dpi::PhysicalSize;
 use winit::window::Window;
 
 use crate::gpu::Gpu;
-use crate::render::shadow::Batch;
+use crate::render::shadow::SampleBatch;
 use crate::viewer::drawing::canvas::Canvas;
 use crate::viewer::kept_side::KeptSide;
 use crate::viewer::panels::shapes::{EMPTY, PanelShapes, begin_pass};
@@ -112,7 +112,7 @@ impl WindowSurface {
             }
         };
         // A picture that adds to the last one takes less time than a whole picture.
-        let is_whole = picture.as_ref().is_some_and(|picture| picture.batch.is_none_or(Batch::is_first));
+        let is_whole = picture.as_ref().is_some_and(|picture| picture.batch.is_none_or(SampleBatch::is_first));
         let began = Instant::now();
         self.submit(&frame.texture, picture, panels);
         if is_whole {

@@ -1,57 +1,63 @@
-//! Lines and tinted faces of debug views.
+//! Lines and tinted faces of the debug views of volumes, silhouettes and receivers.
 
 use std::collections::HashMap;
 
 use glam::{Vec3, Vec4};
 
-use super::DebugView;
+use super::view::DebugView;
 use crate::render::Mark;
-use crate::render::shadow::casters::Casters;
-use crate::render::shadow::flattening::{Receiver, receivers};
-use crate::render::shadow::light_samples::LightSample;
-use crate::render::shadow::silhouette::{facing, silhouette};
-use crate::render::shadow::{PlanarSettings, ShadowScene, ShadowSettings};
+use crate::render::shadow::light::sample::LightSample;
+use crate::render::shadow::planar::receivers::{Receiver, receivers};
+use crate::render::shadow::planar::settings::PlanarSettings;
+use crate::render::shadow::settings::ShadowSettings;
+use crate::render::shadow::shared::casters::Casters;
+use crate::render::shadow::shared::scene::ShadowScene;
+use crate::render::shadow::volume::silhouette::{facing, silhouette};
 use crate::scene::Scene;
 
 const EDGE: [u8; 4] = [255, 226, 90, 255];
 const SIDE: [u8; 4] = [255, 120, 60, 26];
-/// Colours of receivers, one after the other.
+/// Colours of the receivers, in turn.
 const RECEIVERS: [[u8; 3]; 6] =
     [[90, 190, 255], [255, 170, 70], [130, 220, 110], [235, 120, 220], [245, 225, 90], [110, 235, 215]];
 const RECEIVER_ALPHA: u8 = 70;
-/// Sides are drawn this many times as long as the scene is wide; volumes have no end.
+/// Length of the sides that are drawn, in diagonals of the scene; volumes are infinite.
 const REACH: f32 = 2.0;
 
-/// What marks are made from.
+/// What the marks of a view depend on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Source {
+pub struct MarksKey {
     view: DebugView,
-    place: Vec4,
+    light: Vec4,
     planar: PlanarSettings,
 }
 
-/// Lines, two corners each, and triangles, three corners each.
+/// Corners of lines and triangles.
 #[derive(Default)]
 pub struct Marks {
+    /// Two corners a line.
     pub lines: Vec<Mark>,
+    /// Three corners a triangle.
     pub triangles: Vec<Mark>,
 }
 
-impl Source {
+impl MarksKey {
+    /// Returns the key for the view of one light sample.
     pub fn new(view: DebugView, settings: &ShadowSettings, sample: &LightSample) -> Self {
-        Self { view, place: sample.place(), planar: settings.planar.clone() }
+        Self { view, light: sample.position(), planar: settings.planar.clone() }
     }
 }
 
 impl Marks {
-    pub fn of(shadows: &ShadowScene, source: &Source) -> Self {
+    /// Returns the marks of a view; none for views that colour pixels.
+    pub fn new(shadows: &ShadowScene, key: &MarksKey) -> Self {
         let mut marks = Self::default();
-        match source.view {
-            DebugView::Volumes => marks.volumes(shadows, source.place),
-            DebugView::Silhouettes => marks.silhouettes(&shadows.casters, source.place),
+        match key.view {
+            DebugView::Volumes => marks.volumes(shadows, key.light),
+            DebugView::Silhouettes => marks.silhouettes(shadows.casters(), key.light),
             DebugView::Receivers => {
                 let scene = shadows.scene();
-                for (receiver, colour) in receivers(scene, &source.planar).iter().zip(RECEIVERS.into_iter().cycle()) {
+                for (receiver, colour) in receivers(scene, &key.planar).iter().zip(RECEIVERS.into_iter().cycle()) {
                     marks.receiver(scene, receiver, colour);
                 }
             }
@@ -66,8 +72,8 @@ impl Marks {
     }
 
     fn volumes(&mut self, shadows: &ShadowScene, light: Vec4) {
-        let casters = &shadows.casters;
-        let reach = REACH * shadows.scene().bounds().diagonal();
+        let casters = shadows.casters();
+        let reach = REACH * shadows.bounds().diagonal();
         let far = |corner: Vec3| corner + reach * (light.w * corner - light.truncate()).normalize_or_zero();
         for ends in silhouette(casters, &facing(casters, light)) {
             let [a, b] = ends.map(|corner| casters.positions[corner as usize]);
@@ -85,7 +91,7 @@ impl Marks {
                 edges.entry((key(p).min(key(q)), key(p).max(key(q)))).or_insert((0, [p, q])).0 += 1;
             }
         }
-        // An edge of one triangle only is an edge of the receiver.
+        // The outline of a receiver is the edges of one triangle only.
         let outline = edges.into_values().filter(|(uses, _)| *uses == 1).flat_map(|(_, ends)| ends);
         self.lines.extend(outline.map(|corner| mark(corner, [r, g, b, 255])));
     }

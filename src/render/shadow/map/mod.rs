@@ -1,0 +1,16 @@
+//! Shadow maps: what the light sees is lit (Williams 1978, "Casting curved shadows on curved surfaces").
+//!
+//! [`shadow_map`] draws the depth of the casters as the light sees them, by the [`projection`] of the light; maps are kept
+//! in a [`cache`] while neither light nor casters move. [`block_planes`] summarises each block of texels as one plane, and
+//! [`pcf`] looks points up: percentage-closer filtering (Reeves, Salesin and Cook 1987) against the plane of the receiver.
+
+pub mod bindings;
+pub mod block_planes;
+pub mod cache;
+pub mod pcf;
+pub mod projection;
+pub mod settings;
+pub mod shadow_map;
+mod shadow_pass;
+
+pub use shadow_pass::MapShadows;

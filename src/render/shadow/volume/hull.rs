@@ -1,0 +1,144 @@
+//! The triangles of shadow volumes: sides at the outline of the casters, and caps.
+//!
+//! A side at an edge (a, b) is the quadrilateral a, b, b', a', where v' is v moved away from the light L to infinity:
+//! v' = (v w - L, 0) for a homogeneous light (L, w). How often and in which direction each edge has a side is its signed
+//! count (see [`silhouette`](super::silhouette)). For depth-fail, caps close each volume at its triangle and at infinity.
+
+use glam::{Vec3, Vec4};
+use rayon::prelude::*;
+
+use super::silhouette::count;
+use crate::render::shadow::shared::casters::{Caster, Casters, Edge};
+
+/// Edges of one parallel task.
+const CHUNK: usize = 4096;
+
+/// Which sides of shadow volumes are counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Counting {
+    /// Those in front of the visible point (z-pass): needs sides only.
+    DepthPass,
+    /// Those behind the visible point (z-fail): needs sides and both caps.
+    DepthFail,
+}
+
+/// The shadow volumes of one light, as triangles. An index is 2 v for corner v where it is, and 2 v + 1 for corner v moved
+/// away from the light to infinity.
+///
+/// Sides list the corners of their edge in the same order for both windings, and caps list them in the order of their
+/// triangle, so that triangles that coincide have the same depth to the last bit.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hull {
+    /// Triangles that are counter-clockwise seen from outside the volume.
+    pub counter_clockwise: Vec<u32>,
+    /// Triangles that are clockwise seen from outside the volume.
+    pub clockwise: Vec<u32>,
+}
+
+/// Returns the shadow volumes of the triangles whose `facing` is not zero, from a light at the homogeneous `position`.
+#[must_use]
+pub fn hull(casters: &Casters, facing: &[i32], position: Vec4, counting: Counting) -> Hull {
+    let is_directional = position.w == 0.0;
+    let of_edges = |edges: &[Edge]| {
+        let mut hull = Hull::default();
+        for edge in edges {
+            hull.add_side(edge.ends, count(casters, edge, facing), is_directional);
+        }
+        hull
+    };
+    let mut hull = Hull::default();
+    for part in casters.edges.par_chunks(CHUNK).map(of_edges).collect::<Vec<_>>() {
+        hull.append(&part);
+    }
+    if counting == Counting::DepthFail {
+        for (triangle, &facing) in casters.triangles.iter().zip(facing) {
+            hull.add_light_caps(casters, triangle, facing);
+            hull.add_dark_caps(casters, triangle, facing, is_directional);
+        }
+    }
+    hull
+}
+
+/// Returns one closed volume for each triangle. This is slow, and right by construction.
+#[must_use]
+pub fn hull_triangle_by_triangle(casters: &Casters, facing: &[i32], position: Vec4) -> Hull {
+    let is_directional = position.w == 0.0;
+    let mut hull = Hull::default();
+    for (triangle, &facing) in casters.triangles.iter().zip(facing) {
+        hull.add_light_caps(casters, triangle, facing);
+        hull.add_dark_caps(casters, triangle, facing, is_directional);
+        for &[a, b, c] in casters.parts(triangle) {
+            for [from, to] in [[a, b], [b, c], [c, a]] {
+                let direction = if from < to { 1 } else { -1 };
+                hull.add_side([from.min(to), from.max(to)], direction * facing, is_directional);
+            }
+        }
+    }
+    hull
+}
+
+/// Returns the triangles at the terminator of smooth surfaces: a shading normal faces the light, the triangle itself does
+/// not. Those whose front is dark are counter-clockwise, those whose back is dark clockwise.
+///
+/// Sides of volumes run too close to these triangles for depths to tell them apart, so they are darkened explicitly.
+#[must_use]
+pub fn terminator(casters: &Casters, facing: &[i32], position: Vec4) -> Hull {
+    let mut hull = Hull::default();
+    for (triangle, &facing) in casters.triangles.iter().zip(facing).filter(|(_, facing)| **facing != 0) {
+        let to_light = casters.corners(triangle).map(|corner| position.truncate() - position.w * corner);
+        // Interpolated normals and directions can face each other only if those of two corners do.
+        let faces_light =
+            |&normal: &Vec3| to_light.iter().any(|&to_light| (normal.dot(to_light) < 0.0) == (facing > 0));
+        if triangle.normals.iter().any(faces_light) {
+            hull.list(-facing).extend(triangle.corners.map(near));
+        }
+    }
+    hull
+}
+
+impl Hull {
+    /// Adds the side at an edge |count| times, with the winding of its sign.
+    fn add_side(&mut self, [a, b]: [u32; 2], count: i32, is_directional: bool) {
+        let list = self.list(count);
+        for _ in 0..count.unsigned_abs() {
+            list.extend([near(a), far(a), near(b)]);
+            // The shadows of all points of a directional light meet in one point at infinity.
+            if !is_directional {
+                list.extend([far(a), far(b), near(b)]);
+            }
+        }
+    }
+
+    /// Adds the caps that close the volume of a triangle towards the light: the triangle itself.
+    pub fn add_light_caps(&mut self, casters: &Casters, triangle: &Caster, facing: i32) {
+        if facing != 0 {
+            self.list(facing).extend(casters.parts(triangle).iter().flatten().map(|&corner| near(corner)));
+        }
+    }
+
+    /// Adds the caps that close the volume of a triangle at infinity.
+    fn add_dark_caps(&mut self, casters: &Casters, triangle: &Caster, facing: i32, is_directional: bool) {
+        if facing != 0 && !is_directional {
+            self.list(-facing).extend(casters.parts(triangle).iter().flatten().map(|&corner| far(corner)));
+        }
+    }
+
+    fn append(&mut self, other: &Hull) {
+        self.counter_clockwise.extend_from_slice(&other.counter_clockwise);
+        self.clockwise.extend_from_slice(&other.clockwise);
+    }
+
+    fn list(&mut self, sign: i32) -> &mut Vec<u32> {
+        if sign > 0 { &mut self.counter_clockwise } else { &mut self.clockwise }
+    }
+}
+
+/// Index of a corner where it is.
+fn near(corner: u32) -> u32 {
+    2 * corner
+}
+
+/// Index of a corner moved away from the light to infinity.
+fn far(corner: u32) -> u32 {
+    2 * corner + 1
+}

@@ -1,0 +1,43 @@
+//! Signed edge counts: which edges are the outline of the casters as a light sees them.
+//!
+//! Each triangle t is oriented so that it faces the light: f_t = +1 if its front does, -1 if its back does. An edge e sums
+//! over its triangles the direction d = +1 or -1 in which each runs along it (Kim, Kim and Turk 2008, "Exact shadow
+//! volumes"):
+//!
+//! ```text
+//! c_e = sum over the triangles t at e of  d_{t,e} f_t
+//! ```
+//!
+//! Within a surface two triangles cancel. At a silhouette they add up to +-2, at the border of an open mesh to +-1. The sign
+//! is the direction of the volume's side at this edge, and the absolute value how often it is drawn.
+
+use glam::{DVec3, Vec3, Vec4};
+use rayon::prelude::*;
+
+use crate::render::shadow::shared::casters::{Caster, Casters, Edge};
+
+/// Returns for each triangle `[t]` +1 if its front faces a light at the homogeneous `position`, -1 if its back does.
+///
+/// It is computed once for a triangle and in double precision, because all its edges must agree.
+#[must_use]
+pub fn facing(casters: &Casters, position: Vec4) -> Vec<i32> {
+    let light = position.truncate().as_dvec3();
+    let towards = |point: DVec3| light - f64::from(position.w) * point;
+    let of = |triangle: &Caster| {
+        let [a, b, c] = casters.corners(triangle).map(Vec3::as_dvec3);
+        if (b - a).cross(c - a).dot(towards(a)) >= 0.0 { 1 } else { -1 }
+    };
+    casters.triangles.par_iter().map(of).collect()
+}
+
+/// Returns the signed count of an edge: how often it is a side of the volumes, and in which direction by sign.
+pub fn count(casters: &Casters, edge: &Edge, facing: &[i32]) -> i32 {
+    let sides = &casters.sides[edge.sides.start as usize..edge.sides.end as usize];
+    sides.iter().map(|side| side.direction * facing[side.triangle as usize]).sum()
+}
+
+/// Returns the ends of all edges with a count that is not zero: the outline of the casters as the light sees them.
+#[must_use]
+pub fn silhouette(casters: &Casters, facing: &[i32]) -> Vec<[u32; 2]> {
+    casters.edges.iter().filter(|edge| count(casters, edge, facing) != 0).map(|edge| edge.ends).collect()
+}

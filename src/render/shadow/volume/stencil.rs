@@ -1,0 +1,99 @@
+//! Stencil states of shadow volumes, z-pass and z-fail, and the pipelines that count with them.
+//!
+//! Let the count of a pixel be the number of volumes that its visible point is in. Walking from the eye to the point, each
+//! front face enters a volume and each back face leaves one, so z-pass counts faces in front of the point:
+//!
+//! ```text
+//! z-pass:  depth test passes:  front +1, back -1       (Heidmann 1991)
+//! z-fail:  depth test fails:   back  +1, front -1      (Everitt and Kilgard 2002)
+//! ```
+//!
+//! z-fail walks from infinity to the point and counts faces behind it. Both operations wrap at 256, so that the order of
+//! faces does not matter; being in a multiple of 256 volumes counts as being in none.
+
+use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
+use crate::render::shadow::light::pass_setup::PassSetup;
+use crate::render::shadow::shared::pipeline::{CORNER, PipelineRecipe, against_depth, pipeline_layout};
+use crate::render::shadow::shared::stencil::{both_faces, on_pass};
+
+const SHADOW_VOLUME: Shader = shader!(
+    "shadow volume",
+    "shared/frame.wgsl",
+    "shadow/light/light_sample.wgsl",
+    "shadow/light/one_light.wgsl",
+    "shadow/volume/shadow_volume.wgsl"
+);
+/// A side begins at the edge of its caster, where both are equally deep but for rounding, and a cap lies in its triangle:
+/// there the volume has to be behind the surface. The bias moves it away from the eye by its change of depth over a 128th of
+/// a pixel, which is more than rasterisation moves corners.
+const DEEPER: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: -4, slope_scale: -1.0 / 128.0, clamp: 0.0 };
+
+/// Pipelines for counter-clockwise and clockwise triangles of a [`Hull`](super::hull::Hull).
+pub struct VolumePipelines {
+    /// Count by z-pass.
+    pub depth_pass: [wgpu::RenderPipeline; 2],
+    /// Count by z-fail.
+    pub depth_fail: [wgpu::RenderPipeline; 2],
+    /// Darken visible triangles.
+    pub terminator: [wgpu::RenderPipeline; 2],
+}
+
+impl VolumePipelines {
+    /// Creates pipelines that cut volumes off beyond `far_depth`, if that is given.
+    pub fn new(gpu: &Gpu, setup: &PassSetup, far_depth: Option<f32>) -> Self {
+        let module = SHADOW_VOLUME.module(gpu);
+        let layout = pipeline_layout(gpu, "shadow volume", &setup.groups());
+        let both_windings = |cull_mode, depth_stencil: wgpu::DepthStencilState, far_depth: Option<f32>| {
+            [wgpu::FrontFace::Ccw, wgpu::FrontFace::Cw].map(|front_face| {
+                PipelineRecipe {
+                    constants: &[("FAR_DEPTH", f64::from(far_depth.unwrap_or(0.0)))],
+                    vertex: Some(CORNER),
+                    fragment: far_depth.map(|_| ("beyond", [].as_slice())),
+                    primitive: wgpu::PrimitiveState { front_face, cull_mode, ..Default::default() },
+                    depth_stencil: Some(depth_stencil.clone()),
+                    samples: setup.samples,
+                    ..PipelineRecipe::new("shadow volume", &layout, &module)
+                }
+                .make(gpu)
+            })
+        };
+        Self {
+            depth_pass: both_windings(None, count_state(gpu, z_pass()), far_depth),
+            depth_fail: both_windings(None, count_state(gpu, z_fail()), far_depth),
+            terminator: both_windings(Some(wgpu::Face::Back), darken_state(gpu), None),
+        }
+    }
+}
+
+/// z-pass: counts where the depth test passes. A front face enters a volume, a back face leaves it.
+fn z_pass() -> wgpu::StencilState {
+    use wgpu::StencilOperation::{DecrementWrap, IncrementWrap, Keep};
+    count_faces(face(Keep, IncrementWrap), face(Keep, DecrementWrap))
+}
+
+/// z-fail: counts where the depth test fails. Seen from infinity, a back face enters a volume, a front face leaves it.
+fn z_fail() -> wgpu::StencilState {
+    use wgpu::StencilOperation::{DecrementWrap, IncrementWrap, Keep};
+    count_faces(face(DecrementWrap, Keep), face(IncrementWrap, Keep))
+}
+
+fn count_faces(front: wgpu::StencilFaceState, back: wgpu::StencilFaceState) -> wgpu::StencilState {
+    wgpu::StencilState { front, back, read_mask: !0, write_mask: !0 }
+}
+
+fn face(depth_fail_op: wgpu::StencilOperation, pass_op: wgpu::StencilOperation) -> wgpu::StencilFaceState {
+    let (compare, fail_op) = (wgpu::CompareFunction::Always, wgpu::StencilOperation::Keep);
+    wgpu::StencilFaceState { compare, fail_op, depth_fail_op, pass_op }
+}
+
+/// The depth test passes in front of the visible surface: depth is reversed.
+fn count_state(gpu: &Gpu, stencil: wgpu::StencilState) -> wgpu::DepthStencilState {
+    against_depth(gpu, wgpu::CompareFunction::Greater, stencil, DEEPER)
+}
+
+/// Replaces the stencil on the visible surface.
+fn darken_state(gpu: &Gpu) -> wgpu::DepthStencilState {
+    let replace = on_pass(wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace);
+    against_depth(gpu, wgpu::CompareFunction::Equal, both_faces(replace, !0, !0), Default::default())
+}
