@@ -4,11 +4,13 @@
 pub mod baked;
 #[path = "../../src/base/mod.rs"]
 pub mod base;
+#[path = "../../src/patch/mod.rs"]
+pub mod patch;
 #[path = "../../src/scene/mod.rs"]
 pub mod scene;
 
-/// A .glb file from the fuzzer's bytes: unchanged if they begin with `glTF`, else a valid container of the JSON before the
-/// first zero byte and the binary chunk after it, so that the fuzzer need not find valid lengths.
+/// A .glb file from the fuzzer's bytes: unchanged if they begin with `glTF`, else a valid container of the JSON before
+/// the first zero byte and the binary chunk after it, so that the fuzzer need not find valid lengths.
 #[must_use]
 pub fn glb_of(data: &[u8]) -> Vec<u8> {
     if data.starts_with(b"glTF") {

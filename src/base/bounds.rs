@@ -73,15 +73,16 @@ impl Bounds {
 impl Frustum {
     /// The half spaces of a clip-from-world matrix, without the far plane.
     ///
-    /// Source: Gribb and Hartmann 2001, "Fast Extraction of Viewing Frustum Planes from the World-View-Projection Matrix".
+    /// Source: Gribb and Hartmann 2001, "Fast Extraction of Viewing Frustum Planes from the World-View-Projection
+    /// Matrix".
     #[must_use]
     pub fn new(clip_from_world: &Mat4) -> Self {
         let (x, y, w) = (clip_from_world.row(0), clip_from_world.row(1), clip_from_world.row(3));
         Self([w, w + x, w - x, w + y, w - y])
     }
 
-    /// Whether a part of the box may be in view. Conservative: a box near an edge of the frustum may pass although all of
-    /// it lies outside.
+    /// Whether a part of the box may be in view. Conservative: a box near an edge of the frustum may pass although all
+    /// of it lies outside.
     #[must_use]
     pub fn meets(&self, bounds: &Bounds) -> bool {
         self.0.iter().all(|plane| {

@@ -4,9 +4,11 @@ use std::fs;
 use std::io::{self, Write as _};
 use std::path::Path;
 
-/// Writes a file under a temporary name in the same folder and renames it, so that a run that stops leaves no partial file.
+/// Writes a file under a temporary name in the same folder and renames it, so that a run that stops leaves no partial
+/// file.
 ///
-/// If `path` names something that is not an ordinary file, such as `/dev/null` or a pipe, the bytes are written to it directly.
+/// If `path` names something that is not an ordinary file, such as `/dev/null` or a pipe, the bytes are written to it
+/// directly.
 ///
 /// # Errors
 /// Returns an error if the folder or the file cannot be written to.

@@ -37,8 +37,8 @@ impl Stage {
 
 /// Connects long work with its caller.
 ///
-/// The work calls [`Progress::report`] and [`Progress::rest`] between small steps. When [`Progress::is_cancelled`] returns
-/// true, it stops and returns what it has computed so far.
+/// The work calls [`Progress::report`] and [`Progress::rest`] between small steps. When [`Progress::is_cancelled`]
+/// returns true, it stops and returns what it has computed so far.
 pub trait Progress: Sync {
     /// Reports that the share `done` of the stage's work, 0..1, is complete.
     fn report(&self, stage: Stage, done: f32);

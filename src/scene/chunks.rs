@@ -11,8 +11,8 @@ use crate::base::ids::TriangleId;
 /// Triangles per chunk.
 pub const CHUNK: usize = 64;
 
-/// Spatial order of some triangles: each run of [`CHUNK`] triangles is a compact chunk, and neighbouring chunks are near each
-/// other.
+/// Spatial order of some triangles: each run of [`CHUNK`] triangles is a compact chunk, and neighbouring chunks are
+/// near each other.
 pub fn spatial_order(
     corners: impl Fn(TriangleId) -> [Vec3; 3],
     triangles: impl Iterator<Item = TriangleId>,
@@ -39,7 +39,8 @@ struct Placed {
     centroid: Vec3,
 }
 
-/// Splits the triangles in two at a multiple of [`CHUNK`] with the least cost of the surface area heuristic, and then each part.
+/// Splits the triangles in two at a multiple of [`CHUNK`] with the least cost of the surface area heuristic, and then
+/// each part.
 fn sort(triangles: &mut [Placed]) {
     if triangles.len() <= CHUNK {
         return;

@@ -64,7 +64,8 @@ pub struct Arrival {
 }
 
 impl Light {
-    /// A light without name, range limit and profile, in light group 0; `intensity` in candela, for a directional one in lux.
+    /// A light without name, range limit and profile, in light group 0; `intensity` in candela, for a directional one
+    /// in lux.
     #[must_use]
     pub fn new(kind: LightKind, intensity: Vec3) -> Self {
         Self { name: String::new(), kind, intensity, range: None, profile: None, group: GroupId(0) }
@@ -76,8 +77,8 @@ impl Light {
         Self::new(LightKind::Point { position }, intensity)
     }
 
-    /// A spot light of `intensity` candela per channel along the unit vector `direction`, with the half angles at which the
-    /// falloff begins and at which the cone ends, radians.
+    /// A spot light of `intensity` candela per channel along the unit vector `direction`, with the half angles at which
+    /// the falloff begins and at which the cone ends, radians.
     #[must_use]
     pub fn spot(position: Vec3, direction: Vec3, [inner_angle, outer_angle]: [f32; 2], intensity: Vec3) -> Self {
         Self::new(LightKind::Spot { position, direction, inner_angle, outer_angle }, intensity)

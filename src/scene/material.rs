@@ -112,8 +112,8 @@ impl Material {
 
     /// Optical properties at a point with texture coordinates `uv` and vertex colour `colour`.
     ///
-    /// Diffuse reflectance rho = base colour x (1 - metallic), clamped to [`MAX_REFLECTANCE`]; base colour = factor x texture x
-    /// vertex colour, linear.
+    /// Diffuse reflectance rho = base colour x (1 - metallic), clamped to [`MAX_REFLECTANCE`]; base colour = factor x
+    /// texture x vertex colour, linear.
     #[must_use]
     pub fn at(&self, textures: &[Texture], uv: [Vec2; 2], colour: Vec4) -> SurfacePoint {
         let fetch = |slot: &TextureSlot| textures[slot.texture.index()].sample_srgb(slot.coordinate(uv));

@@ -1,12 +1,12 @@
 //! Floor 1: the scene: triangles in world space, materials, lights, cameras.
 //!
-//! A [`Scene`] comes from a file ([`gltf::load`]), from [`builtin`], or from code ([`SceneBuilder`]). The loader validates it:
-//! all numbers are finite and all indices in range, so no later stage checks again. The node tree is applied on loading and
-//! kept only so that a bake can write it. Nothing here uses the GPU.
+//! A [`Scene`] comes from a file ([`gltf::load`]), from [`builtin`], or from code ([`SceneBuilder`]). The loader
+//! validates it: all numbers are finite and all indices in range, so no later stage checks again. The node tree is
+//! applied on loading and kept only so that a bake can write it. Nothing here uses the GPU.
 
 pub mod builtin;
 pub mod camera;
-pub mod chunks;
+pub(crate) mod chunks;
 pub mod doctor;
 pub mod gltf;
 pub mod light;
@@ -29,4 +29,5 @@ pub use photometry::Profile;
 pub use scene_builder::SceneBuilder;
 pub use sides::{Back, Sides};
 pub use texture::{Image, Sampler, Texture, TextureSlot, Wrap};
-pub use triangle::{Triangle, Vertex, area_of, edge_cross, is_degenerate, is_placeable, normal_of};
+pub use triangle::{Triangle, Vertex, area_of, edge_cross, normal_of};
+pub(crate) use triangle::{is_degenerate, is_placeable};

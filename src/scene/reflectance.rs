@@ -9,8 +9,8 @@ use super::texture::Texture;
 /// Most samples of the mean of a texture.
 const MEAN_PIXELS: usize = 1 << 16;
 
-/// Mean reflectance of each material in its brightest channel `[m]`: factors times the means of textures, without vertex
-/// colours.
+/// Mean reflectance of each material in its brightest channel `[m]`: factors times the means of textures, without
+/// vertex colours.
 pub(crate) fn mean_reflectances(scene: &Scene) -> Vec<f32> {
     let colour_means: Vec<_> = scene.textures.iter().map(|texture| mean(texture, Texture::sample_srgb)).collect();
     let data_means: Vec<_> = scene.textures.iter().map(|texture| mean(texture, Texture::sample_linear)).collect();

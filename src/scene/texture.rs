@@ -87,7 +87,8 @@ impl Wrap {
 }
 
 impl Texture {
-    /// Bilinear sample of an sRGB colour texture: linear colour and alpha. The origin is the top left corner, as in glTF.
+    /// Bilinear sample of an sRGB colour texture: linear colour and alpha. The origin is the top left corner, as in
+    /// glTF.
     #[must_use]
     pub fn sample_srgb(&self, uv: Vec2) -> Vec4 {
         static LINEAR: std::sync::LazyLock<[f32; 256]> = std::sync::LazyLock::new(srgb_byte_table);

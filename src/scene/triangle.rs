@@ -64,7 +64,7 @@ pub fn normal_of(corners: [Vec3; 3]) -> Vec3 {
 
 /// Whether the triangle has no usable area: its height is within rounding of its longest edge.
 #[must_use]
-pub fn is_degenerate(corners: [Vec3; 3]) -> bool {
+pub(crate) fn is_degenerate(corners: [Vec3; 3]) -> bool {
     /// Smallest height that counts, as a share of the longest edge.
     const SHARE: f32 = 1e-7;
     let [a, b, c] = corners;
@@ -75,7 +75,7 @@ pub fn is_degenerate(corners: [Vec3; 3]) -> bool {
 
 /// Whether a position is plausible: finite, and no coordinate beyond a million kilometres.
 #[must_use]
-pub fn is_placeable(position: Vec3) -> bool {
+pub(crate) fn is_placeable(position: Vec3) -> bool {
     const LARGEST: f32 = 1e9;
     position.is_finite() && position.abs().max_element() <= LARGEST
 }

@@ -1,8 +1,8 @@
 //! Architecture as rooms carved out of a solid: walls face inward, are closed, and share every edge.
 //!
-//! The planes of all boxes divide space into the cells of a rectilinear grid. A cell is solid by default, air inside a room,
-//! and solid again inside a block. There is a face between each pair of an air cell and a solid cell, so neighbouring faces
-//! always share whole edges.
+//! The planes of all boxes divide space into the cells of a rectilinear grid. A cell is solid by default, air inside a
+//! room, and solid again inside a block. There is a face between each pair of an air cell and a solid cell, so
+//! neighbouring faces always share whole edges.
 
 use std::collections::BTreeMap;
 

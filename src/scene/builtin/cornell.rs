@@ -1,7 +1,7 @@
 //! The Cornell box, with its measured coordinates.
 //!
-//! Source: Cornell University Program of Computer Graphics, "The Cornell Box: Data" (1998). The reflectances and the light
-//! are the linear Rec. 709 values that are commonly used for its spectra.
+//! Source: Cornell University Program of Computer Graphics, "The Cornell Box: Data" (1998). The reflectances and the
+//! light are the linear Rec. 709 values that are commonly used for its spectra.
 
 use glam::Vec3;
 

@@ -10,7 +10,8 @@ use crate::scene::{Material, Scene};
 /// Far corner of the room, metres; the near one is the origin.
 const ROOM: Vec3 = Vec3::new(4.0, 3.0, 4.0);
 
-/// A closed room, 4 m wide, with a lamp, a mirror on the wall, a block of copper, a silver ball, and a pane of green glass.
+/// A closed room, 4 m wide, with a lamp, a mirror on the wall, a block of copper, a silver ball, and a pane of green
+/// glass.
 #[must_use]
 pub fn mirrors() -> Scene {
     let mut builder = Builder::new("mirrors");

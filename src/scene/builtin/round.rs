@@ -10,14 +10,14 @@ use crate::scene::Vertex;
 /// Cosine of the crease angle, 50 degrees: neighbouring bands whose normals differ by less are shaded smoothly.
 const CREASE: f32 = 0.643;
 
-/// The point of the unit circle at `share` of a turn. It is computed in double precision, so that every machine rounds it to
-/// the same single.
+/// The point of the unit circle at `share` of a turn. It is computed in double precision, so that every machine rounds
+/// it to the same single.
 fn on_circle(share: f64) -> Vec2 {
     Vec2::new((share * TAU).cos() as f32, (share * TAU).sin() as f32)
 }
 
-/// Surface of revolution: a profile of (radius, height) points rotated about +Y, with `sides` flat sides that are shaded
-/// smoothly.
+/// Surface of revolution: a profile of (radius, height) points rotated about +Y, with `sides` flat sides that are
+/// shaded smoothly.
 ///
 /// The front faces are on the right of the profile's direction: outside for a profile that goes upward.
 pub(super) fn lathe(profile: &[Vec2], sides: u32) -> Shape {
@@ -87,8 +87,8 @@ pub(super) fn torus(radius: f32, tube_radius: f32, sides: u32, tube_sides: u32) 
     torus
 }
 
-/// A regular prism without a bottom, twisted by the share `twist` of a turn between its foot at the origin and its top, with
-/// flat faces.
+/// A regular prism without a bottom, twisted by the share `twist` of a turn between its foot at the origin and its top,
+/// with flat faces.
 pub(super) fn twisted_prism(radius: f32, height: f32, twist: f64, sides: u32, layers: u32) -> Shape {
     let corner = |side: u32, layer: u32| {
         let up = f64::from(layer) / f64::from(layers);

@@ -67,8 +67,8 @@ impl Edges {
         ]
     }
 
-    /// Vertices of open edges that lie inside another open edge. There two triangles meet one, and rounding opens cracks
-    /// through which light or background shines.
+    /// Vertices of open edges that lie inside another open edge. There two triangles meet one, and rounding opens
+    /// cracks through which light or background shines.
     pub fn t_junctions(&self, welded: &Welded, diagonal: f32) -> Finding {
         let tolerance = ON_EDGE * diagonal;
         let grid = Grid::new(&self.open, welded, tolerance);

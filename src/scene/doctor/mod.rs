@@ -1,4 +1,5 @@
-//! The mesh doctor: lists what makes the light of a scene wrong or slow to compute, where it is, and what to do about it.
+//! The mesh doctor: lists what makes the light of a scene wrong or slow to compute, where it is, and what to do about
+//! it.
 //!
 //! The doctor reports and repairs nothing.
 

@@ -23,9 +23,9 @@ pub(super) fn check(document: &Document<'_>, nodes: &[PlacedNode<'_>]) -> Result
     let mut size = 0u64;
     for placed in nodes {
         let Some(mesh) = placed.node.mesh.and_then(|mesh| document.root.get(mesh)) else { continue };
-        let places = instancing::count(document, placed.node, placed.index)?;
+        let num_instances = instancing::count(document, placed.node, placed.index)?;
         let once = mesh.primitives.iter().map(|primitive| predicted_size(document, primitive));
-        size = size.saturating_add(once.fold(0, u64::saturating_add).max(1).saturating_mul(places));
+        size = size.saturating_add(once.fold(0, u64::saturating_add).max(1).saturating_mul(num_instances));
     }
     if size > MAX_COUNT {
         return Err(Cause::TooLarge(format!(

@@ -29,7 +29,8 @@ pub struct LoadOptions {
 /// Loads a .gltf or .glb file; `FILE#NAME` or `FILE#1` selects one of its scenes by name or index.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read or is not valid glTF 2.0; its message is one line with the file and the cause.
+/// Returns an error if the file cannot be read or is not valid glTF 2.0; its message is one line with the file and the
+/// cause.
 pub fn load(path: &Path) -> Result<Scene, LoadError> {
     load_with(path, &LoadOptions::default())
 }
@@ -100,7 +101,7 @@ fn read_scene(
 
     let meshes = Meshes::new(&document, &nodes, uv_sets, chosen);
     let mut population = Population::new(&document, &nodes, scene, meshes);
-    nodes.iter().enumerate().try_for_each(|(place, node)| population.add(place, node))?;
+    nodes.iter().enumerate().try_for_each(|(scene_node, node)| population.add(scene_node, node))?;
     let (mut scene, light_definitions) = population.finish();
     if !stated_groups::assign(&mut scene, &light_definitions, &document.root) {
         groups::assign(&mut scene, &light_definitions, &light_names(&document.root));
@@ -155,9 +156,9 @@ mod tests {
             ("/accessors/0/bufferView", json!(7), "accessor 0 refers to buffer view 7"),
             ("/bufferViews/0/buffer", json!(7), "buffer view 0 refers to buffer 7"),
         ];
-        for (place, value, expected) in cases {
+        for (pointer, value, expected) in cases {
             let mut fixture = Fixture::triangle();
-            *fixture.json.pointer_mut(place).expect("the place exists") = value;
+            *fixture.json.pointer_mut(pointer).expect("the value exists") = value;
             assert!(fixture.error().contains(expected), "{}", fixture.error());
         }
     }

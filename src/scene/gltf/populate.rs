@@ -30,31 +30,31 @@ impl<'a> Population<'a> {
         Self { document, scene, light_definitions: Vec::new(), meshes, profiles: photometric::Profiles::new(document) }
     }
 
-    /// Adds what the node `placed` carries; `place` is its index in [`Scene::nodes`].
-    pub fn add(&mut self, place: usize, placed: &PlacedNode<'_>) -> Result<(), Cause> {
+    /// Adds what the node `placed` carries; `scene_node` is its index in [`Scene::nodes`].
+    pub fn add(&mut self, scene_node: usize, placed: &PlacedNode<'_>) -> Result<(), Cause> {
         let PlacedNode { index, node, world_from_node, .. } = *placed;
         let user = || format!("node {index}");
         if let Some(mesh) = node.mesh {
-            self.meshes.place(&mut self.scene, place, placed, mesh)?;
+            self.meshes.place(&mut self.scene, scene_node, placed, mesh)?;
         }
         if let Some(camera) = node.camera {
             let camera = self.document.find(camera, "camera", user)?;
             let name = name_of([&node.name, &camera.name], "camera", self.scene.cameras.len());
-            self.scene.nodes[place].camera = Some(self.scene.cameras.len());
+            self.scene.nodes[scene_node].camera = Some(self.scene.cameras.len());
             self.scene.cameras.push(camera::placed(camera, name, world_from_node)?);
         }
         if let Some(light) = node.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref()) {
-            self.place_light(place, placed, light.light)?;
+            self.place_light(scene_node, placed, light.light)?;
         }
         if let Some(node_light) = photometric::of_node(node, index)? {
-            self.place_photometric_light(place, placed, &node_light)?;
+            self.place_photometric_light(scene_node, placed, &node_light)?;
         }
         Ok(())
     }
 
     fn place_light(
         &mut self,
-        place: usize,
+        scene_node: usize,
         placed: &PlacedNode<'_>,
         index: Index<punctual::LightDefinition>,
     ) -> Result<(), Cause> {
@@ -62,13 +62,13 @@ impl<'a> Population<'a> {
         let definition = self.document.find(index, "light", || format!("node {node_index}"))?;
         let name = name_of([&node.name, &definition.name], "light", index.value());
         let light = punctual::placed(definition, &name, world_from_node)?;
-        self.keep_light(place, light, &name, index.value());
+        self.keep_light(scene_node, light, &name, index.value());
         Ok(())
     }
 
     fn place_photometric_light(
         &mut self,
-        place: usize,
+        scene_node: usize,
         placed: &PlacedNode<'_>,
         node_light: &photometric::NodeLight,
     ) -> Result<(), Cause> {
@@ -85,14 +85,14 @@ impl<'a> Population<'a> {
         let light = photometric::placed(photometry, node_light.factor(), &name, placed.world_from_node)?;
         let punctual = self.document.root.extensions.as_ref().and_then(|root| root.khr_lights_punctual.as_ref());
         let num_before = punctual.map_or(0, |punctual| punctual.lights.len());
-        self.keep_light(place, light, &name, num_before + node_light.light);
+        self.keep_light(scene_node, light, &name, num_before + node_light.light);
         Ok(())
     }
 
-    fn keep_light(&mut self, place: usize, light: Option<Light>, name: &str, definition: usize) {
+    fn keep_light(&mut self, scene_node: usize, light: Option<Light>, name: &str, definition: usize) {
         match light {
             Some(light) => {
-                self.scene.nodes[place].light = Some(self.scene.lights.len());
+                self.scene.nodes[scene_node].light = Some(self.scene.lights.len());
                 self.scene.lights.push(light);
                 self.light_definitions.push(definition);
             }
@@ -100,7 +100,8 @@ impl<'a> Population<'a> {
         }
     }
 
-    /// The filled scene with notes about what is ignored, and the index of the light definition of each of its lights `[l]`.
+    /// The filled scene with notes about what is ignored, and the index of the light definition of each of its lights
+    /// `[l]`.
     pub fn finish(mut self) -> (Scene, Vec<usize>) {
         if self.scene.lights.iter().any(|light| light.profile.is_some()) {
             let note = "bakes and rays use the photometric files of lights; --shadows treats these lights as uniform";

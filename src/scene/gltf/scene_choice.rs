@@ -15,8 +15,8 @@ pub(super) fn split_scene_name(path: &Path) -> (PathBuf, Option<String>) {
     (path.to_owned(), None)
 }
 
-/// Root nodes of the wanted scene, else of the default scene, else of the first one; without scenes all nodes that have no
-/// parent.
+/// Root nodes of the wanted scene, else of the default scene, else of the first one; without scenes all nodes that have
+/// no parent.
 pub(super) fn root_nodes(document: &Document<'_>, wanted: Option<&str>) -> Result<Vec<Index<Node>>, Cause> {
     let root = &document.root;
     let scene = match (wanted, root.scene) {

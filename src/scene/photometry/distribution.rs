@@ -39,9 +39,9 @@ impl Profile {
 }
 
 impl Photometry {
-    /// Luminous intensity along a unit vector in the luminaire's space, candela, interpolated linearly between the table's
-    /// angles. Vertical angles start at -Z, horizontal ones at +X and increase towards +Y (EXT_lights_ies). The intensity
-    /// outside the vertical angles of the table is zero.
+    /// Luminous intensity along a unit vector in the luminaire's space, candela, interpolated linearly between the
+    /// table's angles. Vertical angles start at -Z, horizontal ones at +X and increase towards +Y (EXT_lights_ies). The
+    /// intensity outside the vertical angles of the table is zero.
     #[must_use]
     pub fn intensity(&self, direction: Vec3) -> f32 {
         let vertical = (-direction.z).clamp(-1.0, 1.0).acos().to_degrees();
@@ -83,7 +83,8 @@ impl Photometry {
         &self.file
     }
 
-    /// Luminous flux, lumen: the integral of the intensity over the sphere by the midpoint rule, in steps of 2 and 4 degrees.
+    /// Luminous flux, lumen: the integral of the intensity over the sphere by the midpoint rule, in steps of 2 and 4
+    /// degrees.
     #[must_use]
     pub fn flux(&self) -> f32 {
         const STEPS: usize = 90;

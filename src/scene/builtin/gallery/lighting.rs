@@ -22,8 +22,8 @@ const GLOBE_HEIGHT: f32 = 2.2;
 
 /// The sun, and the window shafts through which sunlight and skylight enter.
 ///
-/// A shaft is parallel to the sunlight, so it casts no shadow of its own. Its lower side emits skylight and hides the void
-/// outside.
+/// A shaft is parallel to the sunlight, so it casts no shadow of its own. Its lower side emits skylight and hides the
+/// void outside.
 pub(super) fn windows(builder: &mut Builder, finishes: &Finishes) {
     let [sill, head] = WINDOWS_Y;
     // Two metres outward, against the sunlight; widened so that no ray grazes a side.

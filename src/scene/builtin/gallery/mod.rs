@@ -1,9 +1,10 @@
-//! A small art gallery: two rooms with soft shadows, colour bleeding, and sunlight that reaches the ceiling by reflection.
+//! A small art gallery: two rooms with soft shadows, colour bleeding, and sunlight that reaches the ceiling by
+//! reflection.
 //!
-//! The hall is white: sunlight falls through three high windows past a row of columns on to an oak floor, and a flight of
-//! steps leads to a dais before a blue-green wall under a luminous ceiling. A doorway connects it to a dim room with a deep
-//! red wall, two pendant lamps and a spot on a white sphere. X runs from the red room to the dais, Z from the pictures to the
-//! windows.
+//! The hall is white: sunlight falls through three high windows past a row of columns on to an oak floor, and a flight
+//! of steps leads to a dais before a blue-green wall under a luminous ceiling. A doorway connects it to a dim room with
+//! a deep red wall, two pendant lamps and a spot on a white sphere. X runs from the red room to the dais, Z from the
+//! pictures to the windows.
 
 mod exhibits;
 mod finishes;

@@ -124,7 +124,8 @@ impl<'a> Reader<'a> {
         self.component != ComponentType::F32
     }
 
-    /// The same accessor with integers read as fractions of their largest value, even if the file does not mark them so.
+    /// The same accessor with integers read as fractions of their largest value, even if the file does not mark them
+    /// so.
     pub fn into_fractions(mut self) -> Self {
         self.normalized = true;
         self
@@ -170,9 +171,9 @@ impl<'a> Reader<'a> {
             Some(base) => rows.iter().map(|&row| decode(base.get(row as usize))).collect(),
             None => vec![zero; rows.len()],
         };
-        for (row, place) in self.overlay.iter().flat_map(|overlay| &overlay.rows) {
+        for (row, substitute) in self.overlay.iter().flat_map(|overlay| &overlay.rows) {
             if let (Ok(at), Some(overlay)) = (rows.binary_search(row), &self.overlay) {
-                values[at] = decode(overlay.values.get(*place));
+                values[at] = decode(overlay.values.get(*substitute));
             }
         }
         Ok(values)
@@ -188,8 +189,8 @@ impl<'a> Reader<'a> {
             return Err(self.failed("unknown type of sparse indices".to_owned()));
         };
         let indices = &sparse.indices;
-        let places = self.rows(document, indices.buffer_view, indices.byte_offset.0, kind.size(), count)?;
-        let rows = (0..count).map(|place| (decode_index(places.get(place)), place)).collect();
+        let index_rows = self.rows(document, indices.buffer_view, indices.byte_offset.0, kind.size(), count)?;
+        let rows = (0..count).map(|substitute| (decode_index(index_rows.get(substitute)), substitute)).collect();
         let values = &sparse.values;
         let values = self.rows(document, values.buffer_view, values.byte_offset.0, self.size(), count)?;
         Ok(Overlay { rows, values })

@@ -1,7 +1,7 @@
 //! Splits the bytes of a file into typed JSON and the binary chunk.
 //!
-//! The entry points of the gltf crate are not used if they can panic (a header length below 12) or are stricter than the
-//! standard (a scene without nodes, an integer written as `3.0`, an invalid animation, which is never played here).
+//! The entry points of the gltf crate are not used if they can panic (a header length below 12) or are stricter than
+//! the standard (a scene without nodes, an integer written as `3.0`, an invalid animation, which is never played here).
 
 use gltf::Glb;
 use gltf::json::Root;

@@ -10,8 +10,8 @@ use percent_encoding::percent_decode_str;
 /// Largest file that is read, bytes.
 pub(crate) const MAX_FILE_BYTES: u64 = 4 << 30;
 
-/// Bytes of `uri`; their number is subtracted from the budget `left`. `folder` is the folder of the scene; `None` if the
-/// scene is only bytes.
+/// Bytes of `uri`; their number is subtracted from the budget `left`. `folder` is the folder of the scene; `None` if
+/// the scene is only bytes.
 ///
 /// # Errors
 /// Returns an error if the URI is refused or the file cannot be read. It is one sentence with the URI, which the caller

@@ -1,4 +1,5 @@
-//! Default light groups: one for each light definition and each emissive material, so that each can be dimmed after a bake.
+//! Default light groups: one for each light definition and each emissive material, so that each can be dimmed after a
+//! bake.
 
 use std::collections::BTreeMap;
 use std::f32::consts::{PI, TAU};
@@ -24,7 +25,8 @@ enum Source {
 
 /// Creates the groups of a scene and assigns every light and every used emissive material to its group.
 ///
-/// `definitions[l]` is the index of the light definition of the scene's light l; `names` are the names of the definitions.
+/// `definitions[l]` is the index of the light definition of the scene's light l; `names` are the names of the
+/// definitions.
 pub(crate) fn assign(scene: &mut Scene, definitions: &[usize], names: &[Option<String>]) {
     let flux = flux_of_sources(scene, definitions);
     let own = sources_with_own_group(&flux);
@@ -49,8 +51,8 @@ pub(crate) fn assign(scene: &mut Scene, definitions: &[usize], names: &[Option<S
     }
 }
 
-/// The sources with a group of their own: all of them if there are enough groups, else those of the largest flux, in file
-/// order; the others share the last group.
+/// The sources with a group of their own: all of them if there are enough groups, else those of the largest flux, in
+/// file order; the others share the last group.
 fn sources_with_own_group(flux: &BTreeMap<Source, f32>) -> Vec<Source> {
     let mut sources: Vec<_> = flux.keys().copied().collect();
     if sources.len() > MAX_GROUPS {
@@ -63,8 +65,8 @@ fn sources_with_own_group(flux: &BTreeMap<Source, f32>) -> Vec<Source> {
 
 /// Luminous flux of each source, lumen, without the effect of textures.
 ///
-/// Point light: 4 pi I. Spot: 2 pi (1 - cos(outer angle)) I. Directional: E times the area of the disc around the scene.
-/// Emissive material: pi L A, twice for a double-sided one.
+/// Point light: 4 pi I. Spot: 2 pi (1 - cos(outer angle)) I. Directional: E times the area of the disc around the
+/// scene. Emissive material: pi L A, twice for a double-sided one.
 fn flux_of_sources(scene: &Scene, definitions: &[usize]) -> BTreeMap<Source, f32> {
     let cross_section = PI * 0.25 * scene.bounds().size().length_squared();
     let mut flux = BTreeMap::new();

@@ -38,10 +38,10 @@ pub(crate) struct MaterialReader<'a> {
     pub textures: TextureTable,
     /// Messages to the user.
     pub notes: Vec<String>,
-    /// Texture coordinate sets of each material in the two places of a vertex `[m]`.
+    /// Texture coordinate sets of each material in the two sets of a vertex `[m]`.
     pub uv_sets: Vec<[u32; 2]>,
     /// Texture coordinate sets of the material that is being read.
-    places: [Option<u32>; 2],
+    vertex_sets: [Option<u32>; 2],
 }
 
 /// A texture as a material of the file refers to it.
@@ -61,7 +61,13 @@ impl<'a> Reference<'a> {
 impl<'a> MaterialReader<'a> {
     /// Starts without textures.
     pub fn new(document: &'a Document<'a>) -> Self {
-        Self { document, textures: TextureTable::default(), notes: Vec::new(), uv_sets: Vec::new(), places: [None; 2] }
+        Self {
+            document,
+            textures: TextureTable::default(),
+            notes: Vec::new(),
+            uv_sets: Vec::new(),
+            vertex_sets: [None; 2],
+        }
     }
 
     /// Reads all materials of the file in its order.
@@ -75,7 +81,7 @@ impl<'a> MaterialReader<'a> {
 
     fn read(&mut self, index: usize, source: &json::Material) -> Result<Material, Cause> {
         let name = source.name.clone().unwrap_or_else(|| format!("material {index}"));
-        self.places = [None; 2];
+        self.vertex_sets = [None; 2];
         let extensions = source.extensions.as_ref();
         let pbr = &source.pbr_metallic_roughness;
         let strength = extensions.and_then(|e| e.emissive_strength.as_ref()).map_or(1.0, |e| e.emissive_strength.0);
@@ -111,7 +117,7 @@ impl<'a> MaterialReader<'a> {
             self.take_diffuse(&mut material, value)?;
         }
         clamp(&mut material)?;
-        self.uv_sets.push([self.places[0].unwrap_or(0), self.places[1].unwrap_or(1)]);
+        self.uv_sets.push([self.vertex_sets[0].unwrap_or(0), self.vertex_sets[1].unwrap_or(1)]);
         Ok(material)
     }
 
@@ -146,9 +152,9 @@ impl<'a> MaterialReader<'a> {
         let Some(reference) = reference else { return Ok(None) };
         let texture = self.textures.id(self.document, reference.index, || format!("material {material:?}"))?;
         let uv_set = reference.transform.and_then(|transform| transform.tex_coord).unwrap_or(reference.uv_set);
-        let Some(place) = self.place_of_uv_set(uv_set) else {
+        let Some(vertex_set) = self.vertex_set_of(uv_set) else {
             self.notes.push(format!(
-                "material {material:?}: a texture is ignored because it uses a third set of coordinates, TEXCOORD_{uv_set}"
+                "material {material:?}: a texture is ignored because it uses a third coordinate set, TEXCOORD_{uv_set}"
             ));
             return Ok(None);
         };
@@ -156,17 +162,17 @@ impl<'a> MaterialReader<'a> {
         if !transform.is_finite() {
             return Err(Cause::NotFinite(format!("a texture transform of material {material:?}")));
         }
-        Ok(Some(TextureSlot { texture, uv_set: place, transform }))
+        Ok(Some(TextureSlot { texture, uv_set: vertex_set, transform }))
     }
 
-    /// Place in the vertices of this material of a texture coordinate set: sets 0 and 1 keep their place if it is free.
-    /// `None` if both places are taken by other sets.
-    fn place_of_uv_set(&mut self, uv_set: u32) -> Option<usize> {
+    /// Index of the vertices' coordinate set, 0 or 1, that holds the file's set `uv_set`: sets 0 and 1 keep their index
+    /// if it is free. `None` if both hold other sets.
+    fn vertex_set_of(&mut self, uv_set: u32) -> Option<usize> {
         let preferred = usize::from(uv_set > 0);
-        let is_free = |place: &usize| self.places[*place].is_none_or(|taken| taken == uv_set);
-        let place = [preferred, 1 - preferred].into_iter().find(is_free)?;
-        self.places[place] = Some(uv_set);
-        Some(place)
+        let is_free = |set: &usize| self.vertex_sets[*set].is_none_or(|taken| taken == uv_set);
+        let set = [preferred, 1 - preferred].into_iter().find(is_free)?;
+        self.vertex_sets[set] = Some(uv_set);
+        Some(set)
     }
 }
 
@@ -211,8 +217,8 @@ fn clamp(material: &mut Material) -> Result<(), Cause> {
     Ok(())
 }
 
-/// Removes normal and metallic-roughness textures whose image cannot be read, because the grey substitute would be taken
-/// for data.
+/// Removes normal and metallic-roughness textures whose image cannot be read, because the grey substitute would be
+/// taken for data.
 pub(crate) fn drop_missing_data_textures(materials: &mut [Material], textures: &[Texture]) {
     let is_there = |slot: &TextureSlot| !textures[slot.texture.index()].image.encoded.is_empty();
     for material in materials {

@@ -85,7 +85,7 @@ mod tests {
         fixture
     }
 
-    fn worn(variant: Option<&str>) -> Result<String, String> {
+    fn material_with(variant: Option<&str>) -> Result<String, String> {
         let options = LoadOptions { variant: variant.map(str::to_owned) };
         let scene = from_slice_with("chair", &chair().to_bytes(), &options).map_err(|error| error.to_string())?;
         Ok(scene.materials[scene.triangles[0].material.index()].name.clone())
@@ -93,15 +93,15 @@ mod tests {
 
     #[test]
     fn a_variant_replaces_the_materials_that_it_maps() {
-        assert_eq!(worn(None).as_deref(), Ok("oak"));
-        assert_eq!(worn(Some("dark")).as_deref(), Ok("oak"));
-        assert_eq!(worn(Some("light")).as_deref(), Ok("ash"));
+        assert_eq!(material_with(None).as_deref(), Ok("oak"));
+        assert_eq!(material_with(Some("dark")).as_deref(), Ok("oak"));
+        assert_eq!(material_with(Some("light")).as_deref(), Ok("ash"));
         assert_eq!(chair().load().variants, ["dark", "light"]);
     }
 
     #[test]
     fn an_unknown_variant_is_an_error_that_lists_the_variants() {
-        let error = worn(Some("pink")).expect_err("there is none");
+        let error = material_with(Some("pink")).expect_err("there is none");
         assert!(error.contains("no variant \"pink\"; there is \"dark\", \"light\""), "{error}");
     }
 

@@ -32,8 +32,8 @@ pub(crate) struct Geometry {
 impl Geometry {
     /// Reads a primitive; `None` if it has no triangles: points, lines, or no positions.
     ///
-    /// `uv_sets` are the texture coordinate sets of its material, `weights` those of its morph targets, and `name` stands for
-    /// the primitive in messages.
+    /// `uv_sets` are the texture coordinate sets of its material, `weights` those of its morph targets, and `name`
+    /// stands for the primitive in messages.
     ///
     /// # Errors
     /// Returns an error if an accessor cannot be read or an index refers to no vertex.

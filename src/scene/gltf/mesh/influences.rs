@@ -13,7 +13,8 @@ const MAX_SETS: u32 = 4;
 /// Index of a joint in its skin, and its weight.
 pub(crate) type Influence = (usize, f32);
 
-/// Influences of each vertex: JOINTS_n with WEIGHTS_n, without those of weight zero; empty if the primitive has no joints.
+/// Influences of each vertex: JOINTS_n with WEIGHTS_n, without those of weight zero; empty if the primitive has no
+/// joints.
 ///
 /// # Errors
 /// Returns an error if an accessor cannot be read.

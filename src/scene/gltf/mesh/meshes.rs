@@ -51,34 +51,39 @@ impl<'a> Meshes<'a> {
         }
     }
 
-    /// Adds all instances of a node's mesh to the scene; `place` is the index of the node in [`Scene::nodes`].
+    /// Adds all instances of a node's mesh to the scene; `scene_node` is the index of the node in [`Scene::nodes`].
     ///
     /// # Errors
     /// Returns an error if the mesh or anything that it refers to is missing or invalid.
     pub fn place(
         &mut self,
         scene: &mut Scene,
-        place: usize,
+        scene_node: usize,
         placed: &PlacedNode<'_>,
         index: Index<Mesh>,
     ) -> Result<(), Cause> {
         let PlacedNode { index: node_index, node, .. } = *placed;
         let mesh = self.document.find(index, "mesh", || format!("node {node_index}"))?;
         let name = name_of([&node.name, &mesh.name], "mesh", index.value());
-        let places = instancing::transforms(self.document, node, node_index)?;
-        for node_from_mesh in &places {
+        let transforms = instancing::transforms(self.document, node, node_index)?;
+        for node_from_mesh in &transforms {
             let first = scene.instances.len();
             for (p, primitive) in mesh.primitives.iter().enumerate() {
                 let weights = morph::weights(node, mesh);
                 self.place_primitive(scene, placed, (index, p, primitive), weights, *node_from_mesh, &name)?;
             }
             let instances = first..scene.instances.len();
-            if places.len() == 1 {
-                scene.nodes[place].instances = instances;
+            if transforms.len() == 1 {
+                scene.nodes[scene_node].instances = instances;
             } else {
                 let transform = Transform::from_affine(*node_from_mesh);
-                let node =
-                    NamedNode { name: name.clone(), parent: Some(place), transform, instances, ..NamedNode::default() };
+                let node = NamedNode {
+                    name: name.clone(),
+                    parent: Some(scene_node),
+                    transform,
+                    instances,
+                    ..NamedNode::default()
+                };
                 scene.nodes.push(node);
             }
         }

@@ -1,7 +1,7 @@
 //! Skins in their rest pose: linear blend skinning with the joints at the transforms of the file's nodes.
 //!
-//! A vertex with weights w_j is transformed from mesh space to world space by sum_j w_j W_j B_j / sum_j w_j, with the world
-//! transform W_j and the inverse bind matrix B_j of joint j. The transform of the mesh's own node is ignored.
+//! A vertex with weights w_j is transformed from mesh space to world space by sum_j w_j W_j B_j / sum_j w_j, with the
+//! world transform W_j and the inverse bind matrix B_j of joint j. The transform of the mesh's own node is ignored.
 //!
 //! Source: glTF 2.0, section 3.7.3.
 
@@ -115,7 +115,8 @@ mod tests {
 
     use crate::scene::gltf::fixture::Fixture;
 
-    /// A triangle whose first two corners follow joint 0, and whose last follows joint 0 and, 2 higher, joint 1 by half each.
+    /// A triangle whose first two corners follow joint 0, and whose last follows joint 0 and, 2 higher, joint 1 by half
+    /// each.
     fn skinned() -> Fixture {
         let mut fixture = Fixture::triangle();
         let joints = fixture.accessor(5121, "VEC4", 3, &[0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0]);

@@ -75,12 +75,12 @@ mod tests {
     #[test]
     fn every_transform_makes_an_instance_below_its_node() {
         let mut fixture = Fixture::triangle();
-        let places = fixture.floats("_PLACES", "VEC3", &[1.0, 0.0, 0.0, 0.0, 5.0, 0.0]);
+        let translations = fixture.floats("_TRANSLATIONS", "VEC3", &[1.0, 0.0, 0.0, 0.0, 5.0, 0.0]);
         // A half turn about Z, in normalised bytes.
         let turns = fixture.accessor(5120, "VEC4", 2, &[0, 0, 0, 127, 0, 0, 127, 0]);
         fixture.json["accessors"][turns]["normalized"] = json!(true);
-        let attributes = json!({"TRANSLATION": places, "ROTATION": turns});
-        fixture.primitive()["attributes"].as_object_mut().expect("an object").remove("_PLACES");
+        let attributes = json!({"TRANSLATION": translations, "ROTATION": turns});
+        fixture.primitive()["attributes"].as_object_mut().expect("an object").remove("_TRANSLATIONS");
         fixture.json["nodes"][0] = json!({"mesh": 0, "scale": [2, 2, 2],
             "extensions": {"EXT_mesh_gpu_instancing": {"attributes": attributes}}});
         let scene = fixture.load();
@@ -92,9 +92,9 @@ mod tests {
     #[test]
     fn attributes_of_different_lengths_are_refused() {
         let mut fixture = Fixture::triangle();
-        let places = fixture.accessor(5126, "VEC3", 1, &[0; 12]);
+        let translations = fixture.accessor(5126, "VEC3", 1, &[0; 12]);
         let scales = fixture.accessor(5126, "VEC3", 2, &[0; 24]);
-        let attributes = json!({"TRANSLATION": places, "SCALE": scales});
+        let attributes = json!({"TRANSLATION": translations, "SCALE": scales});
         fixture.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": {"attributes": attributes}});
         assert!(fixture.error().contains("row 1 is read"), "{}", fixture.error());
     }
@@ -102,8 +102,8 @@ mod tests {
     #[test]
     fn a_thousand_million_instances_are_refused_before_memory_is_allocated() {
         let mut fixture = Fixture::triangle();
-        let places = fixture.accessor(5126, "VEC3", 1_000_000_000, &[0; 12]);
-        let attributes = json!({"TRANSLATION": places});
+        let translations = fixture.accessor(5126, "VEC3", 1_000_000_000, &[0; 12]);
+        let attributes = json!({"TRANSLATION": translations});
         fixture.json["nodes"][0]["extensions"] = json!({"EXT_mesh_gpu_instancing": {"attributes": attributes}});
         assert!(fixture.error().contains("too large"), "{}", fixture.error());
     }

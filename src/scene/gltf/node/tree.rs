@@ -25,7 +25,8 @@ pub(crate) struct PlacedNode<'a> {
 /// All visible nodes at and below `roots`, parents before children.
 ///
 /// # Errors
-/// Returns an error if a node is its own ancestor or has two parents, the tree is too deep, or a transform is not finite.
+/// Returns an error if a node is its own ancestor or has two parents, the tree is too deep, or a transform is not
+/// finite.
 pub(crate) fn flatten<'a>(document: &'a Document<'_>, roots: &[Index<Node>]) -> Result<Vec<PlacedNode<'a>>, Cause> {
     let mut walk = Walk { document, is_visited: vec![false; document.root.nodes.len()], placed: Vec::new() };
     for &root in roots {
@@ -63,10 +64,10 @@ impl Walk<'_, '_> {
         if !world_from_node.is_finite() {
             return Err(Cause::NotFinite(format!("the transform of node {index}")));
         }
-        let place = Some(self.placed.len());
+        let child_parent = Some(self.placed.len());
         self.placed.push(PlacedNode { index, node, parent, world_from_node });
         let children = node.children.iter().flatten();
-        children.copied().try_for_each(|child| self.visit(child, place, world_from_node, depth + 1))
+        children.copied().try_for_each(|child| self.visit(child, child_parent, world_from_node, depth + 1))
     }
 }
 

@@ -35,7 +35,8 @@ impl Encoded {
     }
 }
 
-/// Encoded images by index; an image is an error if it cannot be read or the pixels that its header states exceed the limit.
+/// Encoded images by index; an image is an error if it cannot be read or the pixels that its header states exceed the
+/// limit.
 pub(crate) fn fetch_images(
     document: &Document<'_>,
     sources: BTreeMap<usize, &json::Image>,
