@@ -1,4 +1,4 @@
-//! Hemicubes per second of the full loop (draw, read back, sum) against drawing and reading back alone, in one run.
+//! Hemicubes per second of the full loop (draw, read back, sum) and of drawing and reading back alone, in one run.
 //!
 //! `cargo bench --bench hemicubes -- [SCENE.glb] [SIZE_PX]`; without a scene the built-in Cornell box.
 
@@ -12,9 +12,9 @@ use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::radiosity::Viewpoints;
 use hemicube::scene::{Scene, builtin, gltf};
 
-/// Hemicubes timed a run.
+/// Hemicubes per timed run.
 const COUNT: usize = 4096;
-/// Runs of which the best counts.
+/// Runs, of which the best counts.
 const RUNS: usize = 3;
 
 fn main() -> anyhow::Result<()> {
@@ -41,8 +41,8 @@ struct Rates {
 
 fn time(gpu: &Gpu, scene: &Scene, element_size: f32, size_px: u32) -> anyhow::Result<Rates> {
     let mesh = PatchMesh::new(scene, &MeshSettings { element_size, patch_size: 4.0 * element_size })?;
-    let sites = Viewpoints::new(scene).at_light_vertices(&mesh);
-    let viewpoints: Vec<Viewpoint> = sites.iter().copied().cycle().take(COUNT).collect();
+    let all = Viewpoints::new(scene).at_light_vertices(&mesh);
+    let viewpoints: Vec<Viewpoint> = all.iter().copied().cycle().take(COUNT).collect();
     let mut hemicubes = Hemicubes::new(gpu, scene, &mesh, size_px);
     let mut best = Rates { full: 0.0, draw: 0.0 };
     for _ in 0..RUNS {

@@ -1,7 +1,7 @@
-//! Large scenes: hemicubes a second with culling against drawing every triangle to every face, shooters against
-//! triangles, and the memory of a bake against its forecast, in one run.
+//! Large scenes: hemicubes per second with and without culling, patches per triangle, and the memory of a bake against its
+//! forecast, in one run.
 //!
-//! `cargo bench --bench large_scenes -- [SCENE.glb]`; beside the file a generated scene of 200,000 triangles.
+//! `cargo bench --bench large_scenes -- [SCENE.glb]`; besides the file it takes a generated scene of 200,000 triangles.
 
 use std::path::PathBuf;
 use std::process::Command;
@@ -21,18 +21,18 @@ use hemicube::scene::{Instance, Light, Material, Scene, Triangle, Vertex, gltf};
 const COUNT: usize = 256;
 const SIZE_PX: u32 = 64;
 
-/// Asks the bench to bake a scene and tell its memory: peaks are those of a whole process.
+/// Makes the bench bake a scene and print its memory, in a process of its own, because the peak is that of a process.
 const BAKE: &str = "--bake-of";
 
 fn main() -> anyhow::Result<()> {
     let args: Vec<String> = std::env::args().skip(1).filter(|arg| arg != "--bench").collect();
     if let Some(name) = args.iter().position(|arg| arg == BAKE).and_then(|at| args.get(at + 1)) {
-        return tell_memory(&scene_of(name)?);
+        return print_memory(&scene_of(name)?);
     }
     for name in args.first().map(String::as_str).into_iter().chain(["generated"]) {
         let scene = scene_of(name)?;
-        tell_rates(&scene)?;
-        // The child is this very program.
+        print_rates(&scene)?;
+        // The child process runs this program again.
         let child = Command::new(std::env::current_exe()?).args([BAKE, name]).output()?;
         print!("{}", String::from_utf8_lossy(&child.stdout));
     }
@@ -43,15 +43,15 @@ fn scene_of(name: &str) -> anyhow::Result<Scene> {
     Ok(if name == "generated" { generated() } else { gltf::load(&PathBuf::from(name))? })
 }
 
-fn tell_rates(scene: &Scene) -> anyhow::Result<()> {
+fn print_rates(scene: &Scene) -> anyhow::Result<()> {
     let gpu = Gpu::headless()?;
     let settings = BakeSettings::preset(Quality::Medium);
     let mesh = PatchMesh::new(scene, &settings.mesh_settings(scene))?;
     println!("{}: {} triangles, {SIZE_PX} px, {}", scene.name, scene.triangles.len(), gpu.name());
-    let (triangles, shooters) = (scene.triangles.len(), mesh.patches.len());
-    println!("  shooters {shooters}, {:.3} of the triangles", shooters as f64 / triangles as f64);
-    let sites = Viewpoints::new(scene).at_light_vertices(&mesh);
-    let viewpoints: Vec<Viewpoint> = sites.iter().step_by((sites.len() / COUNT).max(1)).take(COUNT).copied().collect();
+    let (triangles, patches) = (scene.triangles.len(), mesh.patches.len());
+    println!("  patches {patches}, {:.3} of the triangles", patches as f64 / triangles as f64);
+    let all = Viewpoints::new(scene).at_light_vertices(&mesh);
+    let viewpoints: Vec<Viewpoint> = all.iter().step_by((all.len() / COUNT).max(1)).take(COUNT).copied().collect();
     let culled = rate(Hemicubes::new(&gpu, scene, &mesh, SIZE_PX), &viewpoints)?;
     let whole = rate(Hemicubes::new(&gpu, scene, &mesh, SIZE_PX).without_culling(), &viewpoints)?;
     println!("  {culled:.1} hemicubes/s culled, {whole:.1} not: {:.2} times", culled / whole);
@@ -64,14 +64,14 @@ fn rate(mut hemicubes: Hemicubes<'_>, viewpoints: &[Viewpoint]) -> anyhow::Resul
             std::hint::black_box(row.entries.len());
         })
     };
-    // Drivers compile shaders at the first draw.
+    // Drivers compile shaders at the first draw, which is not timed.
     draw(&viewpoints[..1])?;
     let start = Instant::now();
     draw(viewpoints)?;
     Ok(viewpoints.len() as f64 / start.elapsed().as_secs_f64())
 }
 
-fn tell_memory(scene: &Scene) -> anyhow::Result<()> {
+fn print_memory(scene: &Scene) -> anyhow::Result<()> {
     let settings = BakeSettings::preset(Quality::Draft);
     let forecast = Forecast::of(scene, &settings)?.bytes as f64;
     let gpu = Gpu::headless()?;
@@ -79,7 +79,7 @@ fn tell_memory(scene: &Scene) -> anyhow::Result<()> {
     if let Some(peak) = report.memory_bytes.peak {
         let mib = |bytes: f64| bytes / f64::from(1 << 20);
         let ratio = peak as f64 / forecast;
-        println!("  draft bake: {:.0} MiB, {:.0} foretold: {ratio:.2} times", mib(peak as f64), mib(forecast));
+        println!("  draft bake: {:.0} MiB, {:.0} predicted: {ratio:.2} times", mib(peak as f64), mib(forecast));
     }
     Ok(())
 }
@@ -89,7 +89,7 @@ fn generated() -> Scene {
     let mut scene = Scene { name: "generated".to_owned(), light_groups: vec!["lamp".to_owned()], ..Scene::default() };
     let material = Material::diffuse(Vec3::splat(0.7));
     scene.materials.push(material);
-    // The hall is a ball turned inside out.
+    // The hall is a ball whose triangles face inwards.
     ball(&mut scene, Vec3::new(10.0, 4.0, 5.0), -40.0, 16);
     for i in 0..200 {
         let place = Vec3::new((i % 20) as f32, 0.0, (i / 20) as f32);
@@ -101,7 +101,7 @@ fn generated() -> Scene {
     scene
 }
 
-/// A ball of 4 n^2 - 2 n triangles; a negative radius turns it inside out.
+/// A ball of 4 n^2 - 2 n triangles; with a negative radius they face inwards.
 fn ball(scene: &mut Scene, centre: Vec3, radius: f32, n: u32) {
     let (first, first_triangle) = (scene.vertices.len() as u32, scene.triangles.len());
     let (rings, around) = (n, 2 * n);

@@ -13,7 +13,7 @@ use crate::gpu::Gpu;
 pub trait BakeObserver: Progress {
     /// The mesh that light lies on from now on, with the light that is known.
     fn on_mesh(&self, _mesh: &BakedScene) {}
-    /// True if a new estimate of the light shall be passed to [`on_light`](Self::on_light).
+    /// True if [`on_light`](Self::on_light) may be called with a new estimate of the light.
     fn is_light_due(&self) -> bool {
         false
     }

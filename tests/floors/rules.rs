@@ -31,6 +31,12 @@ const FLOORS: [(&str, f32); 15] = [
 pub type Rooms<'a> = (&'a str, &'a [&'a [&'a str]]);
 
 pub const ROOMS: &[Rooms<'_>] = &[
+    ("form_factor", &[&["row"], &["source"], &["hemicube", "hemisphere", "point_to_polygon", "row_cache"]]),
+    (
+        "radiosity",
+        &[&["field"], &["reconstruction", "viewpoints"], &["adaptive_subdivision", "direct", "gather", "solver"]],
+    ),
+    ("bake", &[&["settings"], &["context", "error"], &["forecast", "measure", "report", "stages"]]),
     (
         "viewer",
         &[

@@ -83,7 +83,7 @@ fn elements_are_conforming_and_small_and_fill_the_surface() {
 }
 
 #[test]
-fn patches_are_flat_pieces_of_about_the_asked_size() {
+fn patches_are_flat_pieces_of_about_the_requested_size() {
     let (_, mesh) = furnace_mesh();
     for patch in &mesh.patches {
         let members = mesh.members_of(patch);
@@ -95,18 +95,18 @@ fn patches_are_flat_pieces_of_about_the_asked_size() {
 }
 
 #[test]
-fn sites_stand_above_their_elements_though_shading_normals_lean() {
+fn viewpoints_lie_above_their_elements_even_if_shading_normals_lean() {
     let mut scene = scenes::furnace(Vec3::splat(0.5), Vec3::ONE);
     for vertex in &mut scene.vertices {
         vertex.normal = (vertex.normal + 0.2 * vertex.normal.any_orthonormal_vector()).normalize();
     }
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.3, patch_size: 0.5 }).unwrap();
-    let sites = Viewpoints::new(&scene).at_light_vertices(&mesh);
+    let viewpoints = Viewpoints::new(&scene).at_light_vertices(&mesh);
     for element in &mesh.elements {
         let normal = normal_of(mesh.corners(element));
         for l in mesh.light_vertices_of(element) {
-            let height = (sites[l].position - mesh.light_vertices[l].position).dot(normal);
-            assert!(height > 0.0, "a site is {height} below its surface");
+            let height = (viewpoints[l].position - mesh.light_vertices[l].position).dot(normal);
+            assert!(height > 0.0, "a viewpoint is {height} below its surface");
         }
     }
 }

@@ -1,8 +1,8 @@
-//! The solution: mesh, form factors, solvers, gathering, stopped and resumed bakes.
+//! The solution: mesh, form factors, solvers, final gather, cancelled and resumed bakes.
 
+mod cancelled;
+mod final_gather;
 mod form_factors;
-mod gathering;
 mod meshing;
 mod noise;
 mod radiosity;
-mod stopped;

@@ -1,7 +1,7 @@
-//! What a bake can be asked for: presets, form-factor methods, solvers, and the numbers behind them.
+//! The settings of a bake: presets, form-factor methods, solvers, and the numbers behind them.
 //!
 //! [`Quality`], [`Method`] and [`Solver`] have one table each (value, name, hint). The command line, the panels, the
-//! benches and the report read it; nobody lists the values a second time.
+//! benches and the report read it; no other place lists the values.
 
 mod bake_settings;
 mod choice;
