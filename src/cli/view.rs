@@ -22,6 +22,10 @@ pub struct ViewArgs {
     /// How to bake a scene that brings no light.
     #[command(flatten)]
     pub bake: BakeOptions,
+    /// Reads shaders from the .wgsl files in a folder and again whenever one changes; an error is shown in the window while the
+    /// last valid shaders stay in use [default in a debug build: shaders/ of the source tree].
+    #[arg(long, value_name = "DIR")]
+    pub shaders: Option<PathBuf>,
     /// Logs the time of each frame: seconds from when it was wanted, and 1 where a bake was running.
     #[arg(long, value_name = "FILE", hide = true)]
     pub frame_log: Option<PathBuf>,
@@ -33,11 +37,15 @@ pub struct ViewArgs {
 /// Returns an error if there is no display, or no graphics device that can draw into a window.
 #[cfg(feature = "viewer")]
 pub fn run(args: &ViewArgs) -> Result<()> {
-    let ViewArgs { scene, variant, bake, frame_log } = args;
+    let ViewArgs { scene, variant, bake, shaders, frame_log } = args;
+    if let Some(folder) = shaders.as_ref().filter(|folder| !folder.is_dir()) {
+        anyhow::bail!("there is no folder {}", folder.display());
+    }
     viewer::run(ViewerOptions {
         scene: scene.clone(),
         variant: variant.variant.clone(),
         settings: bake.settings(),
+        shaders: shaders.clone().or_else(source_folder),
         frame_log: frame_log.clone(),
     })
 }
@@ -49,4 +57,11 @@ pub fn run(args: &ViewArgs) -> Result<()> {
 #[cfg(not(feature = "viewer"))]
 pub fn run(_: &ViewArgs) -> Result<()> {
     anyhow::bail!("this build has no viewer: build it with the feature \"viewer\", or use a subcommand (see --help)")
+}
+
+/// The folder of shaders in the source tree, in a debug build whose source tree still exists.
+#[cfg(feature = "viewer")]
+fn source_folder() -> Option<PathBuf> {
+    let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders"));
+    (cfg!(debug_assertions) && folder.is_dir()).then_some(folder)
 }

@@ -11,7 +11,7 @@
 //! | [`picture`] | what a picture of the scene shows |
 //! | [`session`] | the open scene, and the worker that loads and bakes it |
 //! | [`panels`] | the panels |
-//! | `software` | what only a software driver needs |
+//! | [`software`] | what only a software driver needs |
 //! | [`drawing`] | what draws the picture |
 //! | `window` | events, actions, frames |
 //!
@@ -24,6 +24,7 @@ pub mod picture;
 pub mod preferences;
 pub mod session;
 pub mod settings;
+pub mod software;
 
 mod action;
 mod background;
@@ -31,11 +32,6 @@ mod job;
 mod options;
 mod solution;
 mod window;
-
-pub mod kept_side;
-mod motion;
-mod quick;
-mod warm_up;
 
 pub use options::ViewerOptions;
 

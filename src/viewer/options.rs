@@ -13,6 +13,8 @@ pub struct ViewerOptions {
     pub variant: Option<String>,
     /// Settings of the bake if the file brings no light.
     pub settings: BakeSettings,
+    /// The folder that shaders are read from and watched in; `None` takes the shaders built into the program.
+    pub shaders: Option<PathBuf>,
     /// The file into which the time of each frame is written.
     pub frame_log: Option<PathBuf>,
 }

@@ -12,12 +12,12 @@ use hemicube::patch::MeshSettings;
 use hemicube::render::{Picture, Shading};
 use hemicube::scene::{Scene, builtin};
 use hemicube::viewer::camera::pose::CameraPose;
-use hemicube::viewer::kept_side::KeptSide;
 use hemicube::viewer::panels::shapes::PanelShapes;
 use hemicube::viewer::panels::{BakeFacts, CameraFacts, Facts, Panels, PictureFacts, SceneFacts, theme};
 use hemicube::viewer::preferences::Preferences;
 use hemicube::viewer::session::light_state::LightState;
 use hemicube::viewer::settings::view::Tab;
+use hemicube::viewer::software::kept_side::KeptSide;
 use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
 use crate::support::device::gpu;

@@ -3,6 +3,8 @@
 //! Positions, textures and materials stay as they are uploaded; only the light is written again, while a bake runs or
 //! when a lamp is dimmed by solving anew.
 
+use std::sync::PoisonError;
+
 use wgpu::util::DeviceExt;
 
 use super::draw_batch::{Chunk, DrawBatch};
@@ -102,6 +104,13 @@ impl SceneBuffers {
             gpu.queue.submit([]);
             rest();
         });
+    }
+
+    /// Makes the next picture fill the tiles of the coarse mesh again, as after a change of the shader that fills them.
+    pub fn forget_tiles(&self) {
+        if let Some(tiled) = &self.tiled {
+            *tiled.tiles.held.lock().unwrap_or_else(PoisonError::into_inner) = None;
+        }
     }
 
     /// Indices and batches of the coarse mesh if there is one, else of the elements.

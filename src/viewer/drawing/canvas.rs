@@ -15,7 +15,7 @@ use crate::viewer::picture::content::{Detail, PictureContent};
 use crate::viewer::picture::texture::{new_texture, view_of, write};
 use crate::viewer::settings::comparison::{ComparedShadows, ComparisonLayout};
 use crate::viewer::solution::traced_view::TracedView;
-use crate::viewer::warm_up::warm_up_content;
+use crate::viewer::software::warm_up::warm_up_content;
 
 /// The difference between the last picture and the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -117,8 +117,8 @@ impl Canvas {
 
     /// The driver draws on the CPU, so that coarser levels of detail are faster.
     #[must_use]
-    pub fn is_slow(&self) -> bool {
-        self.renderer.is_slow()
+    pub fn is_software(&self) -> bool {
+        self.renderer.is_software()
     }
 
     /// The exposure that was metered for the last picture, stops; `None` if its exposure was fixed.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::gpu::{Gpu, Stopwatch};
 use crate::render::{Renderer, ShadowScene};
 use crate::viewer::picture::content::{Detail, PictureContent};
-use crate::viewer::quick::Quick;
+use crate::viewer::software::software_renderer::SoftwareRenderer;
 
 /// Samples a pixel of a fine picture.
 pub const SAMPLES: u32 = 4;
@@ -14,7 +14,7 @@ pub const SAMPLES: u32 = 4;
 pub struct SceneRenderer {
     fine: Renderer,
     /// Renderer of the coarse levels of detail on a software driver; `None` on hardware.
-    quick: Option<Quick>,
+    software: Option<SoftwareRenderer>,
     /// The last picture was a sketch.
     is_moving: bool,
 }
@@ -24,13 +24,17 @@ impl SceneRenderer {
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         let fine = Renderer::new(gpu, format, SAMPLES);
-        Self { quick: gpu.tier.is_software().then(|| Quick::new(gpu, format, &fine)), fine, is_moving: false }
+        Self {
+            software: gpu.tier.is_software().then(|| SoftwareRenderer::new(gpu, format, &fine)),
+            fine,
+            is_moving: false,
+        }
     }
 
     /// The driver draws on the CPU, so that coarser levels of detail are faster.
     #[must_use]
-    pub fn is_slow(&self) -> bool {
-        self.quick.is_some()
+    pub fn is_software(&self) -> bool {
+        self.software.is_some()
     }
 
     /// The exposure that was metered for the last picture, stops; `None` if its exposure was fixed or the device is lost.
@@ -42,14 +46,14 @@ impl SceneRenderer {
 
     /// Notes the time of the last picture, seconds: it decides the size of sketches.
     pub fn note_time(&mut self, seconds: f32) {
-        self.quick.iter_mut().filter(|_| self.is_moving).for_each(|quick| quick.note_time(seconds));
+        self.software.iter_mut().filter(|_| self.is_moving).for_each(|software| software.note_time(seconds));
     }
 
     /// From now on takes the exposure of the pictures that `other` draws at the same level of detail.
     pub fn follow_exposure(&mut self, other: &Self) {
         self.fine.follow_exposure(&other.fine);
-        if let (Some(quick), Some(other)) = (&mut self.quick, &other.quick) {
-            quick.follow_exposure(other);
+        if let (Some(software), Some(other)) = (&mut self.software, &other.software) {
+            software.follow_exposure(other);
         }
     }
 
@@ -71,13 +75,13 @@ impl SceneRenderer {
         self.renderers().for_each(|renderer| renderer.cast_shadows(Some(Arc::clone(shadows))));
         let PictureContent { scene, view, settings, size, .. } = content;
         let was_moving = std::mem::replace(&mut self.is_moving, detail == Detail::Sketch);
-        if let Some(quick) = &mut self.quick {
+        if let Some(software) = &mut self.software {
             // Each sketch of a movement is shown at once, with the exposure metered for the one before it.
-            quick.renderer().show_last_exposure(was_moving && self.is_moving);
+            software.renderer().show_last_exposure(was_moving && self.is_moving);
         }
-        match (&mut self.quick, detail) {
-            (Some(quick), Detail::Sketch) => quick.sketch(gpu, encoder, target, content, settings),
-            (Some(quick), Detail::Plain) => quick.draw(gpu, encoder, target, content, settings),
+        match (&mut self.software, detail) {
+            (Some(software), Detail::Sketch) => software.sketch(gpu, encoder, target, content, settings),
+            (Some(software), Detail::Plain) => software.draw(gpu, encoder, target, content, settings),
             _ => self.fine.draw(gpu, encoder, target, *size, scene, view, settings),
         }
     }
@@ -89,6 +93,6 @@ impl SceneRenderer {
     }
 
     fn renderers(&mut self) -> impl Iterator<Item = &mut Renderer> {
-        std::iter::once(&mut self.fine).chain(self.quick.iter_mut().map(Quick::renderer))
+        std::iter::once(&mut self.fine).chain(self.software.iter_mut().map(SoftwareRenderer::renderer))
     }
 }

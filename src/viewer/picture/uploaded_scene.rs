@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::gpu::Gpu;
 use crate::render::ShadowScene;
 use crate::render::scene::SceneBuffers;
 use crate::scene::Scene;
@@ -15,4 +16,12 @@ pub struct UploadedScene {
     pub buffers: Arc<SceneBuffers>,
     /// The casters and lights on the device.
     pub shadows: Arc<ShadowScene>,
+}
+
+impl UploadedScene {
+    /// Drops what shaders have drawn and later pictures would reuse: shadow maps, and the light in tiles.
+    pub fn forget_drawn(&mut self, gpu: &Gpu) {
+        self.buffers.forget_tiles();
+        self.shadows = Arc::new(ShadowScene::new(gpu, Arc::clone(&self.scene)));
+    }
 }

@@ -1,6 +1,7 @@
-//! Watches the open file, so that the scene is loaded again after another program has written it.
+//! Watches a file, or the shaders in a folder, for changes that another program writes: the scene is then loaded again, or
+//! the shaders are.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread::JoinHandle;
@@ -10,25 +11,26 @@ use winit::event_loop::EventLoopProxy;
 
 use crate::viewer::session::user_event::UserEvent;
 
-/// Time between two checks of the file; a file that is the same in two checks is complete.
+/// Time between two checks; a file that is the same in two checks is complete.
 const INTERVAL: Duration = Duration::from_millis(700);
 
-/// Time of modification and size of a file.
-type Stamp = (SystemTime, u64);
+/// Time of modification and size of each watched file.
+type Stamp = Vec<(PathBuf, SystemTime, u64)>;
 
-/// A thread that watches a file until it is dropped.
+/// A thread that watches a file or a folder until it is dropped.
 pub struct FileWatch {
     stop: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl FileWatch {
-    /// Watches `path`; `None` if the system cannot start a thread.
+    /// Watches `path`, a file or a folder of shaders, and sends `event` after each change. Returns `None` if the system cannot
+    /// start a thread.
     #[must_use]
-    pub fn start(path: PathBuf, window: EventLoopProxy<UserEvent>) -> Option<Self> {
+    pub fn start(path: PathBuf, window: EventLoopProxy<UserEvent>, event: fn() -> UserEvent) -> Option<Self> {
         let on_change = move || {
             // The event loop is gone once the window is closed.
-            let _ = window.send_event(UserEvent::FileChanged);
+            let _ = window.send_event(event());
         };
         Self::with(path, INTERVAL, Arc::new(on_change))
     }
@@ -37,12 +39,12 @@ impl FileWatch {
         let (stop, stopped) = mpsc::channel();
         let watch = move || {
             let mut known = stamp(&path);
-            let mut last = known;
+            let mut last = known.clone();
             while stopped.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
                 let now = stamp(&path);
                 // A file that is still being written differs from check to check.
-                if now.is_some() && now != known && now == last {
-                    known = now;
+                if !now.is_empty() && now != known && now == last {
+                    known.clone_from(&now);
                     on_change();
                 }
                 last = now;
@@ -63,9 +65,18 @@ impl Drop for FileWatch {
     }
 }
 
-fn stamp(path: &PathBuf) -> Option<Stamp> {
-    let found = std::fs::metadata(path).ok()?;
-    Some((found.modified().ok()?, found.len()))
+/// The stamp of a file, or of all `.wgsl` files below a folder; empty if there is none.
+fn stamp(path: &Path) -> Stamp {
+    let entries = |folder: &Path| std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+    let Ok(found) = std::fs::metadata(path) else { return Stamp::new() };
+    if found.is_dir() {
+        let is_watched =
+            |path: &PathBuf| path.is_dir() || path.extension().is_some_and(|extension| extension == "wgsl");
+        let mut stamps: Stamp = entries(path).filter(is_watched).flat_map(|path| stamp(&path)).collect();
+        stamps.sort();
+        return stamps;
+    }
+    found.modified().map_or_else(|_| Stamp::new(), |modified| vec![(path.to_owned(), modified, found.len())])
 }
 
 #[cfg(test)]
@@ -85,5 +96,18 @@ mod tests {
         assert!(receiver.recv_timeout(Duration::from_secs(5)).is_ok());
         assert!(receiver.recv_timeout(Duration::from_millis(60)).is_err(), "it was reported twice");
         drop(watch);
+    }
+
+    #[test]
+    fn a_new_version_of_a_shader_in_a_folder_is_reported() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let shader = folder.path().join("surface").join("pass.wgsl");
+        std::fs::create_dir(folder.path().join("surface")).expect("made");
+        std::fs::write(&shader, "old").expect("written");
+        let before = stamp(folder.path());
+        std::fs::write(folder.path().join("notes.txt"), "no shader").expect("written");
+        assert_eq!(stamp(folder.path()), before);
+        std::fs::write(&shader, "a new version").expect("written");
+        assert_ne!(stamp(folder.path()), before);
     }
 }

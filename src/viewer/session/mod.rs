@@ -1,13 +1,13 @@
 //! What is open: the scene, its light, the file it comes from, and the worker that loads and bakes it.
 
 mod default_sky;
-mod file_watch;
 mod state;
 pub(super) mod worker;
 
 pub mod light_state;
 
 pub(super) mod advice;
+pub(super) mod file_watch;
 pub(super) mod open_scene;
 pub(super) mod source;
 pub(super) mod user_event;

@@ -110,6 +110,11 @@ impl Session {
         self.load(settings)
     }
 
+    /// The scene that is being loaded is shown from this pose.
+    pub fn keep_pose(&mut self, pose: Option<CameraPose>) {
+        self.kept_pose = pose;
+    }
+
     fn load(&mut self, settings: BakeSettings) -> anyhow::Result<()> {
         self.start(Task::Open(self.source.clone(), self.variant.clone(), settings))
     }
@@ -220,7 +225,7 @@ impl Session {
         self.outcome = if is_baked { LightState::Stored } else { LightState::Dark };
         self.open_scene = Some(OpenScene::new(loaded, self.kept_pose.take()));
         let file = self.source.file();
-        self.watch = file.and_then(|file| FileWatch::start(file, self.window.clone()));
+        self.watch = file.and_then(|file| FileWatch::start(file, self.window.clone(), || UserEvent::FileChanged));
         if is_baked {
             self.retire();
         }

@@ -27,6 +27,8 @@ pub enum UserEvent {
     },
     /// Another program has written the open file.
     FileChanged,
+    /// Another program has written a shader.
+    ShadersChanged,
 }
 
 /// What has happened in a worker.

@@ -18,14 +18,19 @@ const SIZE: LogicalSize<f64> = LogicalSize::new(1280.0, 720.0);
 /// Smallest size of the window, in which the panels are still usable, points.
 const SMALLEST: LogicalSize<f64> = LogicalSize::new(480.0, 320.0);
 
+/// Most devices that replace a lost one: a device that is lost again and again is not usable.
+const MAX_RECOVERIES: u32 = 3;
+
 /// The application of winit.
 struct App {
     options: ViewerOptions,
     proxy: EventLoopProxy<UserEvent>,
     /// `None` before the first event.
     viewer: Option<Viewer>,
-    /// The error with which the window could not be opened.
+    /// The error with which the window could not be opened or drawn into.
     failure: Option<anyhow::Error>,
+    /// How often a lost device has been replaced.
+    num_recoveries: u32,
 }
 
 /// Opens the window and returns when it is closed.
@@ -40,7 +45,7 @@ pub fn run(options: ViewerOptions) -> anyhow::Result<()> {
              `xvfb-run hemicube` gives the window a virtual display"
         )
     })?;
-    let mut app = App { options, proxy: events.create_proxy(), viewer: None, failure: None };
+    let mut app = App { options, proxy: events.create_proxy(), viewer: None, failure: None, num_recoveries: 0 };
     events.run_app(&mut app).context("the display was lost")?;
     app.failure.map_or(Ok(()), Err)
 }
@@ -53,6 +58,29 @@ impl App {
         // Without a window manager no window has the focus, and by default raw motion is reported to that one only.
         event_loop.listen_device_events(DeviceEvents::Always);
         Viewer::new(window, &self.options, self.proxy.clone())
+    }
+
+    /// Replaces a device that draws no more. The scene is loaded again, and a message says why.
+    fn recover(&mut self, event_loop: &ActiveEventLoop) {
+        let Some(error) = self.viewer.as_mut().and_then(|viewer| viewer.failure.take()) else { return };
+        log::warn!("the graphics device is replaced: {error:#}");
+        self.num_recoveries += 1;
+        let recovered = match self.viewer.take() {
+            Some(lost) if self.num_recoveries <= MAX_RECOVERIES => {
+                let (window, options, pose) = lost.reopening(&self.options);
+                // Before there is a new surface, the old one must go.
+                drop(lost);
+                Viewer::new(window, &options, self.proxy.clone()).map(|viewer| viewer.after_loss(&error, pose))
+            }
+            _ => Err(error),
+        };
+        match recovered {
+            Ok(viewer) => self.viewer = Some(viewer),
+            Err(error) => {
+                self.failure = Some(error.context("the graphics device was lost"));
+                event_loop.exit();
+            }
+        }
     }
 }
 
@@ -82,6 +110,7 @@ impl ApplicationHandler<UserEvent> for App {
         {
             event_loop.exit();
         }
+        self.recover(event_loop);
     }
 
     fn device_event(&mut self, _: &ActiveEventLoop, _: DeviceId, event: DeviceEvent) {

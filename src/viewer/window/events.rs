@@ -23,6 +23,7 @@ impl Viewer {
             UserEvent::Worker { .. } => {}
             UserEvent::Job { number, result } => self.receive(number, result),
             UserEvent::FileChanged => self.reload("The file has changed: reading it again"),
+            UserEvent::ShadersChanged => self.reload_shaders(),
         }
         self.pacer.request();
     }
@@ -46,7 +47,8 @@ impl Viewer {
             WindowEvent::CloseRequested => return true,
             WindowEvent::RedrawRequested => self.draw_frame(),
             WindowEvent::Resized(size) => {
-                self.surface.resize(*size);
+                let resized = self.surface.resize(*size);
+                self.failure = resized.err().or(self.failure.take());
                 self.pacer.request();
             }
             WindowEvent::Focused(false) => {

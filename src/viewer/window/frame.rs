@@ -28,12 +28,19 @@ impl Viewer {
         let is_moving = self.move_by_keys(seconds);
         // Actions of the panels change the next frame.
         let (panels, actions) = self.lay_out();
-        let outcome = self.present(panels);
+        let is_retried = match self.present(panels) {
+            FrameOutcome::Retry => true,
+            FrameOutcome::Presented | FrameOutcome::Hidden => false,
+            FrameOutcome::Failed(error) => {
+                self.failure = Some(error);
+                false
+            }
+        };
 
         drop(paused);
         self.jobs.resume();
         self.pacer.end(is_baking);
-        if is_moving || outcome == FrameOutcome::Retry || !actions.is_empty() {
+        if is_moving || is_retried || !actions.is_empty() {
             self.pacer.request();
         }
         if let Some(worker) = self.session.worker() {

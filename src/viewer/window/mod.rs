@@ -16,6 +16,7 @@ mod next_picture;
 mod pacing;
 mod picture_state;
 mod results;
+mod shader_reload;
 mod shadow_notes;
 mod surface;
 mod viewer;

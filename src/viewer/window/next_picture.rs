@@ -43,10 +43,11 @@ impl Viewer {
     /// The level of detail in which a picture has to be drawn after `change`; `None` if none has to be drawn.
     fn next_detail(&mut self, change: Change) -> Option<Detail> {
         let canvas = &self.surface.canvas;
-        let at_rest = if canvas.is_slow() && self.session.worker().is_some() { Detail::Plain } else { Detail::Fine };
+        let at_rest =
+            if canvas.is_software() && self.session.worker().is_some() { Detail::Plain } else { Detail::Fine };
         let sketch_ends = &mut self.picture.refinement.sketch_ends;
         match change {
-            Change::Content if canvas.is_slow() => {
+            Change::Content if canvas.is_software() => {
                 *sketch_ends = Some(Instant::now() + SKETCH_TIME);
                 Some(Detail::Sketch)
             }

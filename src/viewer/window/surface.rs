@@ -10,9 +10,9 @@ use winit::window::Window;
 use crate::gpu::Gpu;
 use crate::render::shadow::SampleBatch;
 use crate::viewer::drawing::canvas::Canvas;
-use crate::viewer::kept_side::KeptSide;
 use crate::viewer::panels::shapes::{EMPTY, PanelShapes, begin_pass};
 use crate::viewer::picture::content::NextPicture;
+use crate::viewer::software::kept_side::KeptSide;
 
 /// Most attempts to configure the surface.
 const MAX_ATTEMPTS: usize = 1000;
@@ -33,7 +33,7 @@ pub struct WindowSurface {
 }
 
 /// The outcome of a frame.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub enum FrameOutcome {
     /// The frame is on the screen.
     Presented,
@@ -41,6 +41,8 @@ pub enum FrameOutcome {
     Retry,
     /// The window is not visible.
     Hidden,
+    /// The device is lost, or the surface cannot be configured.
+    Failed(anyhow::Error),
 }
 
 impl WindowSurface {
@@ -54,15 +56,12 @@ impl WindowSurface {
         let surface = instance.create_surface(Arc::clone(window)).context("the window takes no graphics")?;
         let gpu = Gpu::for_surface(instance, Some(&surface))?;
         let config = configuration(&gpu, &surface, window.inner_size())?;
-        configure(&gpu, &surface, &config);
-        let mut canvas = Canvas::new(&gpu, config.format);
-        if canvas.is_slow() {
-            canvas.warm_up(&gpu);
-        }
+        configure(&gpu, &surface, &config)?;
+        let canvas = new_canvas(&gpu, config.format);
         // Panels of plain colours need no dithering, which takes a software driver longer than the panels themselves.
         let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
         let panel_renderer = egui_wgpu::Renderer::new(&gpu.device, config.format, options);
-        let side = canvas.is_slow().then(KeptSide::default);
+        let side = canvas.is_software().then(KeptSide::default);
         Ok(Self { gpu: Arc::new(gpu), surface, config, canvas, panel_renderer, side })
     }
 
@@ -73,12 +72,21 @@ impl WindowSurface {
     }
 
     /// Sets the size; an empty one is ignored.
-    pub fn resize(&mut self, size: PhysicalSize<u32>) {
+    ///
+    /// # Errors
+    /// Returns an error if the surface cannot be configured for this size.
+    pub fn resize(&mut self, size: PhysicalSize<u32>) -> anyhow::Result<()> {
         let limit = self.gpu.device.limits().max_texture_dimension_2d;
         if size.width > 0 && size.height > 0 {
             (self.config.width, self.config.height) = (size.width.min(limit), size.height.min(limit));
-            configure(&self.gpu, &self.surface, &self.config);
+            configure(&self.gpu, &self.surface, &self.config)?;
         }
+        Ok(())
+    }
+
+    /// Makes everything anew that draws the picture, from the shaders in force.
+    pub fn renew_canvas(&mut self) {
+        self.canvas = new_canvas(&self.gpu, self.config.format);
     }
 
     /// Draws and presents a frame: the next picture, or else the last one, and the panels on top.
@@ -99,6 +107,9 @@ impl WindowSurface {
         picture: Option<NextPicture>,
         panels: &mut PanelShapes,
     ) -> FrameOutcome {
+        if let Err(error) = self.gpu.check() {
+            return FrameOutcome::Failed(error.into());
+        }
         let frame = match self.surface.get_current_texture() {
             wgpu::CurrentSurfaceTexture::Success(frame) | wgpu::CurrentSurfaceTexture::Suboptimal(frame) => frame,
             wgpu::CurrentSurfaceTexture::Timeout | wgpu::CurrentSurfaceTexture::Occluded => {
@@ -107,8 +118,10 @@ impl WindowSurface {
             wgpu::CurrentSurfaceTexture::Outdated
             | wgpu::CurrentSurfaceTexture::Lost
             | wgpu::CurrentSurfaceTexture::Validation => {
-                configure(&self.gpu, &self.surface, &self.config);
-                return FrameOutcome::Retry;
+                return match configure(&self.gpu, &self.surface, &self.config) {
+                    Ok(()) => FrameOutcome::Retry,
+                    Err(error) => FrameOutcome::Failed(error),
+                };
             }
         };
         // A picture that adds to the last one takes less time than a whole picture.
@@ -120,7 +133,9 @@ impl WindowSurface {
         }
         if self.gpu.tier.is_software() {
             // A software driver draws on the CPU: the bake must not resume before the frame is complete.
-            let _ = self.gpu.wait();
+            if let Err(error) = self.gpu.wait() {
+                return FrameOutcome::Failed(error.into());
+            }
             if is_whole {
                 self.canvas.note_time(began.elapsed().as_secs_f32());
             }
@@ -167,17 +182,31 @@ impl WindowSurface {
     }
 }
 
-/// Configures a surface. wgpu rejects this while another thread submits work to the device, as a bake does with its light, so
-/// it is attempted repeatedly.
-fn configure(gpu: &Gpu, surface: &wgpu::Surface<'_>, config: &wgpu::SurfaceConfiguration) {
+/// The canvas, with its shaders compiled if a software driver would compile them during the first frames.
+fn new_canvas(gpu: &Gpu, format: wgpu::TextureFormat) -> Canvas {
+    let mut canvas = Canvas::new(gpu, format);
+    if canvas.is_software() {
+        canvas.warm_up(gpu);
+    }
+    canvas
+}
+
+/// Configures a surface. wgpu refuses while another thread submits work to the device, as a bake does with its light, so
+/// that is tried again for two seconds.
+fn configure(gpu: &Gpu, surface: &wgpu::Surface<'_>, config: &wgpu::SurfaceConfiguration) -> anyhow::Result<()> {
+    let mut last = None;
     for _ in 0..MAX_ATTEMPTS {
-        let refusal = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
+        gpu.check()?;
+        let scope = gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         surface.configure(&gpu.device, config);
-        if pollster::block_on(refusal.pop()).is_none() {
-            return;
+        last = pollster::block_on(scope.pop());
+        if last.is_none() {
+            return Ok(());
         }
         std::thread::sleep(PAUSE);
     }
+    let cause = last.map_or_else(String::new, |error| error.to_string());
+    Err(anyhow::anyhow!("the window cannot be drawn into at {}x{} pixels: {cause}", config.width, config.height))
 }
 
 /// The configuration of the surface: synchronised with the screen, and of a format without sRGB conversion, since picture and

@@ -8,11 +8,13 @@ use winit::event_loop::EventLoopProxy;
 use winit::window::Window;
 
 use crate::bake::BakeSettings;
+use crate::viewer::camera::pose::CameraPose;
 use crate::viewer::job::Jobs;
 use crate::viewer::options::ViewerOptions;
 use crate::viewer::panels::{Notice, Panels, Trouble};
 use crate::viewer::preferences::Preferences;
 use crate::viewer::session::Session;
+use crate::viewer::session::file_watch::FileWatch;
 use crate::viewer::session::open_scene::OpenScene;
 use crate::viewer::session::source::Source;
 use crate::viewer::session::user_event::UserEvent;
@@ -44,6 +46,10 @@ pub struct Viewer {
     /// Bake settings of the command line.
     given_settings: BakeSettings,
     saved: SavedPreferences,
+    /// Watches the files of the shaders.
+    pub shader_watch: Option<FileWatch>,
+    /// A failure after which the window cannot draw.
+    pub failure: Option<anyhow::Error>,
 }
 
 /// The preferences that were written last.
@@ -68,11 +74,11 @@ impl Viewer {
             // The event loop is gone once the window is closed.
             let _ = job_events.send_event(UserEvent::Job { number, result });
         });
-        let mut session = Session::new(Arc::clone(&surface.gpu), proxy);
+        let mut session = Session::new(Arc::clone(&surface.gpu), proxy.clone());
         let source = options.scene.clone().map_or_else(Source::default, Source::of);
         session.open(source, options.variant.clone(), options.settings)?;
         let preferences = Preferences::path().map_or_else(Preferences::default, |path| Preferences::read(&path));
-        Ok(Self {
+        let mut viewer = Self {
             adapter: surface.gpu.name(),
             picture: PictureState::new(surface.size()),
             saved: SavedPreferences { preferences: preferences.clone(), at: Instant::now() },
@@ -86,7 +92,29 @@ impl Viewer {
             pacer,
             jobs,
             results: Results::default(),
-        })
+            shader_watch: None,
+            failure: None,
+        };
+        if let Some(folder) = options.shaders.clone() {
+            viewer.watch_shaders(folder, proxy);
+        }
+        Ok(viewer)
+    }
+
+    /// What opens the same scene again: the window, options, and pose of the camera.
+    pub fn reopening(&self, options: &ViewerOptions) -> (Arc<Window>, ViewerOptions, Option<CameraPose>) {
+        let scene = Some(self.session.name());
+        let variant = self.session.variant().map(str::to_owned);
+        let options = ViewerOptions { scene, variant, settings: self.next_settings(), ..options.clone() };
+        let pose = self.session.open_scene.as_ref().map(|open_scene| open_scene.controller.pose);
+        (Arc::clone(&self.window), options, pose)
+    }
+
+    /// This viewer replaces one whose device was lost: it keeps the pose of the camera and shows why.
+    pub fn after_loss(mut self, error: &anyhow::Error, pose: Option<CameraPose>) -> Self {
+        self.session.keep_pose(pose);
+        self.notify(format!("The graphics device was lost and has been replaced: {error:#}"));
+        self
     }
 
     /// Settings of the next bake: those of the command line, or another preset if the user has chosen one.
@@ -112,7 +140,7 @@ impl Viewer {
 
     /// Shows a message about a failure until the user closes it.
     pub fn show_trouble(&mut self, title: impl Into<String>, text: impl Into<String>) {
-        self.panels.trouble = Some(Trouble { title: title.into(), text: text.into() });
+        self.panels.trouble = Some(Trouble::new(title, text));
     }
 
     /// Shows a message if `outcome` is an error.

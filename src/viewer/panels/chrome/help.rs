@@ -63,7 +63,7 @@ const SHEET: [Subject; 5] = [
             ("F12", "write a picture"),
             ("H F1", "this sheet"),
             ("O", "choose a file; or drop one"),
-            ("F5", "read the file again"),
+            ("F5", "read the file and the shaders again"),
             ("Ctrl Q", "leave"),
         ],
     ),

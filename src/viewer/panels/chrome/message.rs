@@ -31,6 +31,20 @@ pub struct Trouble {
     pub title: String,
     /// Why, in full.
     pub text: String,
+    /// The text quotes code: it is shown in a font of even width, and no other file is offered.
+    pub is_code: bool,
+}
+
+impl Trouble {
+    /// A message in words.
+    pub fn new(title: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { title: title.into(), text: text.into(), is_code: false }
+    }
+
+    /// A message that quotes code.
+    pub fn of_code(title: impl Into<String>, text: impl Into<String>) -> Self {
+        Self { is_code: true, ..Self::new(title, text) }
+    }
 }
 
 /// Fills the place of the picture while there is none.
@@ -64,9 +78,13 @@ pub fn trouble_ui(ctx: &egui::Context, trouble: &mut Option<Trouble>, actions: &
     let title = RichText::new(&shown.title).strong().color(theme::ALARM);
     let window = egui::Window::new(title).id(Id::unique("trouble")).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).default_width(520.0).show(ctx, |ui| {
-        ui.add(egui::Label::new(&shown.text).wrap().selectable(true));
+        let text = RichText::new(&shown.text);
+        let text = if shown.is_code { text.monospace() } else { text };
+        ui.add(egui::Label::new(text).wrap().selectable(true));
         ui.add_space(6.0);
-        ui.label(RichText::new("Drop another .glb or .gltf file on the window, or choose one.").weak());
+        if !shown.is_code {
+            ui.label(RichText::new("Drop another .glb or .gltf file on the window, or choose one.").weak());
+        }
         ui.add_space(6.0);
         buttons_ui(ui, &shown, trouble, actions);
     });
@@ -77,11 +95,11 @@ fn buttons_ui(ui: &mut Ui, shown: &Trouble, trouble: &mut Option<Trouble>, actio
         if ui.button("Close").clicked() {
             *trouble = None;
         }
-        if ui.button("Open the built-in scene").clicked() {
+        if !shown.is_code && ui.button("Open the built-in scene").clicked() {
             *trouble = None;
             actions.push(Action::OpenBuiltIn);
         }
-        if ui.button("Choose a file ...").clicked() {
+        if !shown.is_code && ui.button("Choose a file ...").clicked() {
             *trouble = None;
             actions.push(Action::ChooseFile);
         }

@@ -273,7 +273,7 @@ fn saving_says_that_dials_are_not_saved() {
 #[test]
 fn trouble_is_shown_until_it_is_closed() {
     let mut desk = desk(facts(None, LightState::Nothing));
-    let trouble = Trouble { title: "This file cannot be opened".into(), text: "no such file".into() };
+    let trouble = Trouble::new("This file cannot be opened", "no such file");
     desk.state_mut().panels.trouble = Some(trouble);
     desk.run_steps(3);
     assert!(desk.query_by_label("no such file").is_some());

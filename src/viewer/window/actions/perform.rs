@@ -20,7 +20,10 @@ impl Viewer {
             Action::OpenBuiltIn => self.open_source(Source::default()),
             Action::Open(path) => self.open_file(path),
             Action::ChooseFile => self.choose_file(),
-            Action::Reload => self.reload("Reading the file again"),
+            Action::Reload => {
+                self.reload("Reading the file again");
+                self.reload_shaders();
+            }
             Action::SetVariant(variant) => {
                 let outcome = self.session.choose_variant(variant, self.next_settings());
                 self.report(outcome);

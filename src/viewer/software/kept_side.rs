@@ -1,5 +1,7 @@
-//! The side panel as it was painted last. Where the processor draws, hundreds of letters take longer than the picture; while
-//! one walks they stay the same, and are copied.
+//! The side panel as it was painted last.
+//!
+//! On a software driver its hundreds of glyphs take longer than the picture. During a walk they do not change, so the last
+//! painting is copied.
 
 use egui::epaint::Primitive;
 use egui::{ClippedPrimitive, Rect};
@@ -23,8 +25,8 @@ struct Painted {
 }
 
 impl KeptSide {
-    /// Paints all panels over what is in `target`: those of the side from what is kept, where they are still the same. Their
-    /// buffers have been updated.
+    /// Paints all panels over `target`. The side panel is copied from the last painting if none of its shapes has changed.
+    /// `egui_wgpu::Renderer::update_buffers` must have been called for the panels.
     pub fn paint(
         &mut self,
         gpu: &Gpu,
@@ -55,7 +57,7 @@ impl KeptSide {
         paint(painter, pass, &mut panels.primitives, &screen, |clip| !is_inside(clip));
     }
 
-    /// What is kept shows these panels.
+    /// The last painting shows these panels.
     fn shows(&self, size: [u32; 2], panels: &PanelShapes, is_inside: impl Fn(&Rect) -> bool) -> bool {
         let Some(Painted { texture, shapes, pixels_per_point }) = &self.painted else { return false };
         let inside = panels.primitives.iter().filter(|shape| is_inside(&shape.clip_rect));
@@ -74,7 +76,7 @@ fn is_same(a: &ClippedPrimitive, b: &ClippedPrimitive) -> bool {
     }
 }
 
-/// Paints the shapes whose clip rectangle is wanted; egui leaves out those that are clipped to nothing.
+/// Paints the shapes whose clip rectangle `is_wanted` returns true for; egui skips shapes that are clipped to nothing.
 fn paint(
     painter: &egui_wgpu::Renderer,
     pass: wgpu::RenderPass<'_>,
@@ -92,7 +94,7 @@ fn paint(
     }
 }
 
-/// Copies what lies in a rectangle, which is in pixels.
+/// Copies the rectangle `area`, in pixels.
 fn copy(encoder: &mut wgpu::CommandEncoder, source: &wgpu::Texture, target: &wgpu::Texture, area: Rect) {
     let limits = [target.width(), target.height()];
     let [left, right] = [area.left(), area.right()].map(|x| (x.round().max(0.0) as u32).min(limits[0]));

@@ -1,50 +1,51 @@
-//! Quick pictures, where the processor draws: one sample a pixel, and in a movement half the size if need be.
+//! Pictures on a software driver: one sample a pixel, and during movement half the size if that is faster.
 
 use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
 
 use crate::gpu::Gpu;
 use crate::render::{RenderSettings, Renderer};
-use crate::viewer::motion::Motion;
 use crate::viewer::picture::content::PictureContent;
 use crate::viewer::picture::texture::{new_texture, view_of};
+use crate::viewer::software::sketch_size::SketchSize;
 
-/// Draws quick pictures into textures of one format.
-pub struct Quick {
+/// Draws pictures with one sample a pixel into textures of one format.
+pub struct SoftwareRenderer {
     format: wgpu::TextureFormat,
     renderer: Renderer,
-    /// Enlarges sketches.
+    /// Enlarges half-size sketches.
     blitter: TextureBlitter,
-    /// The last small sketch's target and its size.
+    /// The target of half-size sketches, and its size.
     target: Option<(wgpu::TextureView, [u32; 2])>,
-    motion: Motion,
+    sketch_size: SketchSize,
 }
 
-impl Quick {
-    /// For textures of `format`; the exposure is that of the last picture of these and of `fine`.
+impl SoftwareRenderer {
+    /// A renderer for textures of `format`. It meters with the light meter of `fine`: the exposure is that of the picture that
+    /// either of them drew last.
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat, fine: &Renderer) -> Self {
         let mut renderer = Renderer::new(gpu, format, 1);
         renderer.share_meter(fine);
         let blitter = TextureBlitterBuilder::new(&gpu.device, format).sample_type(wgpu::FilterMode::Linear).build();
-        Self { format, renderer, blitter, target: None, motion: Motion::default() }
+        Self { format, renderer, blitter, target: None, sketch_size: SketchSize::default() }
     }
 
-    /// What draws.
+    /// The renderer of one sample a pixel.
     pub fn renderer(&mut self) -> &mut Renderer {
         &mut self.renderer
     }
 
-    /// Pictures are exposed as those that another has drawn.
+    /// From now on takes the exposure of the pictures that `other` draws.
     pub fn follow_exposure(&mut self, other: &Self) {
         self.renderer.follow_exposure(&other.renderer);
     }
 
-    /// The last picture of a movement took so long, seconds.
+    /// Notes the time of the last picture of a movement, seconds.
     pub fn note_time(&mut self, seconds: f32) {
-        self.motion.note(seconds);
+        self.sketch_size.note(seconds);
     }
 
-    /// Draws one sample a pixel.
+    /// Draws a picture at full size.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -56,7 +57,7 @@ impl Quick {
         self.renderer.draw(gpu, encoder, target, content.size, &content.scene, &content.view, render_settings);
     }
 
-    /// Draws as large as there is time for; what is half as wide and high is enlarged into `target`.
+    /// Draws a picture of a movement, at half the width and height if that is faster, and then enlarges it into `target`.
     pub fn sketch(
         &mut self,
         gpu: &Gpu,
@@ -65,7 +66,7 @@ impl Quick {
         content: &PictureContent,
         render_settings: &RenderSettings,
     ) {
-        if self.motion.is_full() {
+        if self.sketch_size.is_full() {
             return self.draw(gpu, encoder, target, content, render_settings);
         }
         let size = content.size.map(|side| side.div_ceil(2));
