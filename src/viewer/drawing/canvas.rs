@@ -14,8 +14,8 @@ use crate::viewer::drawing::scene_renderer::SceneRenderer;
 use crate::viewer::picture::content::{Detail, PictureContent};
 use crate::viewer::picture::texture::{new_texture, view_of, write};
 use crate::viewer::settings::comparison::{ComparedShadows, ComparisonLayout};
-use crate::viewer::solution::traced_view::TracedView;
 use crate::viewer::software::warm_up::warm_up_content;
+use crate::viewer::solution::traced_view::TracedView;
 
 /// The difference between the last picture and the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
