@@ -1,4 +1,4 @@
-//! Floor 6: the window in which one walks through a scene while its light is solved.
+//! Floor 6: the window that shows a scene, from a camera that walks or flies, while its light is solved.
 //!
 //! Rooms, from the bottom; each imports only rooms above it in this list:
 //!

@@ -11,7 +11,7 @@ pub struct ViewerOptions {
     pub scene: Option<PathBuf>,
     /// The material variant of the file; `None` takes the materials that the file has without one.
     pub variant: Option<String>,
-    /// Settings of the bake if the file brings no light.
+    /// Settings of the bake if the file has no light.
     pub settings: BakeSettings,
     /// The folder that shaders are read from and watched in; `None` takes the shaders built into the program.
     pub shaders: Option<PathBuf>,

@@ -38,7 +38,7 @@ fn assert_near(found: [u8; 3], expected: [u8; 3], tolerance: u8) {
 }
 
 #[test]
-fn false_colours_are_those_of_the_legend_whatever_the_paint() {
+fn false_colours_match_the_legend_for_any_reflectance() {
     let Some(gpu) = gpu() else { return };
     for (low, high, is_logarithmic) in [(10.0, 1000.0, true), (0.0, 500.0, false)] {
         let scale = LuxScale { low, high, is_logarithmic, num_parts: 0 };
@@ -51,9 +51,9 @@ fn false_colours_are_those_of_the_legend_whatever_the_paint() {
 }
 
 #[test]
-fn a_line_lies_where_the_scale_is_cut() {
+fn lines_lie_at_the_divisions_of_the_scale() {
     let Some(gpu) = gpu() else { return };
-    // Illuminance rises evenly from 0 at the left to 200 lx at the right.
+    // Illuminance rises linearly from 0 at the left to 200 lx at the right.
     let mut quads = Quads::square(paint(Vec3::ONE), Vec3::ZERO);
     quads.light(GroupId(0), |p| Vec3::splat(100.0 * (p.x + 1.0)), |_| Vec3::ZERO);
     let scale = LuxScale { low: 0.0, high: 200.0, is_logarithmic: false, num_parts: 4 };
@@ -86,7 +86,7 @@ fn marked(gpu: &Gpu, quads: &Quads, lines: &[Mark], triangles: &[Mark]) -> Pictu
 }
 
 #[test]
-fn marks_on_a_surface_are_seen_and_those_behind_it_are_not() {
+fn marks_are_hidden_behind_surfaces_only() {
     let Some(gpu) = gpu() else { return };
     let quads = Quads::square(paint(Vec3::ONE), Vec3::splat(PI));
     let face = |z: f32| {
@@ -109,7 +109,7 @@ fn a_wire_is_one_pixel_wide() {
 }
 
 #[test]
-fn a_hidden_instance_is_not_drawn_and_the_rest_keeps_its_light() {
+fn hidden_instances_are_not_drawn_and_the_others_keep_their_light() {
     let Some(gpu) = gpu() else { return };
     let mut quads = Quads::with_groups(1);
     let white = quads.material(paint(Vec3::ONE));
@@ -125,7 +125,7 @@ fn a_hidden_instance_is_not_drawn_and_the_rest_keeps_its_light() {
     let (whole, half) = (picture(&all), picture(&part));
     assert_eq!(pixel(&half, SIZE / 4, SIZE / 2), pixel(&whole, SIZE / 4, SIZE / 2));
     assert!(pixel(&half, 3 * SIZE / 4, SIZE / 2).iter().all(|&channel| channel < 3));
-    // New light goes to both.
+    // New light is uploaded for both.
     let mut light = quads.baked.light.clone();
     light.groups[0].direct.fill(Vec3::splat(500.0));
     all.set_light(gpu, &light);

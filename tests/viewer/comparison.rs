@@ -1,4 +1,4 @@
-//! Shadows that the viewer shows and compares, and what of them is kept afterwards.
+//! Device memory of shadows that are compared or switched off.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ fn content(gpu: &Gpu, layout: Option<ComparisonLayout>) -> PictureContent {
 }
 
 #[test]
-fn a_scene_whose_shadows_were_compared_is_let_go_when_another_is_shown() {
+fn a_scene_is_freed_when_its_comparison_ends() {
     let Some(gpu) = gpu() else { return };
     let mut canvas = Canvas::new(gpu, TextureFormat::Rgba8Unorm);
     let mut show = |content: PictureContent| {
@@ -48,9 +48,9 @@ fn a_scene_whose_shadows_were_compared_is_let_go_when_another_is_shown() {
     }
 }
 
-/// Textures of the device that live shadows gather light in, of this many pixels.
+/// Number of textures of this many pixels that accumulate the direct light of real-time shadows.
 fn num_gathering(gpu: &Gpu, num_pixels: u64) -> usize {
-    // Half or whole floats, with what rows are filled up by.
+    // Half or single floats, with the padding of rows.
     let is_one = |bytes: u64| {
         [8, 16].iter().any(|pixel| bytes.checked_sub(pixel * num_pixels).is_some_and(|rest| rest < num_pixels / 4))
     };
@@ -59,7 +59,7 @@ fn num_gathering(gpu: &Gpu, num_pixels: u64) -> usize {
 }
 
 #[test]
-fn shadows_that_are_switched_off_give_their_textures_back() {
+fn textures_are_freed_when_shadows_are_switched_off() {
     let Some(gpu) = gpu() else { return };
     let mut canvas = Canvas::new(gpu, TextureFormat::Rgba8Unorm);
     let size = [1920, 1200];

@@ -197,7 +197,7 @@ mod tests {
         MotionInput { forward: 1.0, right: 0.0, up: 0.0, turn_left: 0.0, turn_up: 0.0, run: false };
 
     #[test]
-    fn a_camera_at_head_height_walks_and_one_on_the_ceiling_flies() {
+    fn cameras_at_head_height_walk_and_others_fly() {
         let floor = floor(10.0);
         assert!(CameraController::new(at_height(1.6), &floor).is_walking());
         assert!(!CameraController::new(at_height(3.0), &floor).is_walking());
@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    fn flying_follows_the_line_of_sight_and_walking_the_floor() {
+    fn flying_follows_the_viewing_direction_and_walking_the_floor() {
         let floor = floor(20.0);
         let mut controller = CameraController::new(at_height(1.65), &floor);
         controller.pose.turn(0.0, 0.8);
@@ -226,7 +226,7 @@ mod tests {
     }
 
     #[test]
-    fn a_doll_house_is_walked_at_a_doll_s_pace() {
+    fn walking_is_slower_in_a_doll_house() {
         let eye = |width: f32| at_height(0.005 * width);
         let (room, doll_house) = (floor(10.0), floor(0.1));
         let in_room = CameraController::new(eye(10.0), &room).speed();
@@ -235,7 +235,7 @@ mod tests {
     }
 
     #[test]
-    fn a_long_pause_is_no_leap() {
+    fn a_long_frame_does_not_cause_a_leap() {
         let floor = floor(1000.0);
         let mut controller = CameraController::new(at_height(1.65), &floor);
         controller.advance(AHEAD, 100.0, &floor);
@@ -243,7 +243,7 @@ mod tests {
     }
 
     #[test]
-    fn the_wheel_stays_in_its_range() {
+    fn the_speed_stays_in_its_range() {
         let floor = floor(10.0);
         let mut controller = CameraController::new(at_height(1.65), &floor);
         let pace = controller.speed();

@@ -42,7 +42,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn gliding_is_the_same_at_every_frame_rate() {
+    fn the_path_does_not_depend_on_the_frame_rate() {
         let run = |frames: u32| {
             let mut glide = Glide::default();
             let step = 0.5 / frames as f32;
@@ -52,7 +52,7 @@ mod tests {
     }
 
     #[test]
-    fn gliding_comes_to_rest() {
+    fn the_velocity_reaches_zero() {
         let mut glide = Glide::default();
         glide.advance(Vec3::X, 1.0);
         for _ in 0..60 {

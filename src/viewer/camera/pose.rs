@@ -139,7 +139,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_camera_is_taken_over_exactly() {
+    fn the_pose_of_a_file_camera_is_exact() {
         let camera = Camera::looking_at("c", Vec3::new(3.0, 1.0, 2.0), Vec3::new(0.0, 1.5, -1.0), 0.7);
         let pose = CameraPose::from_camera(&camera);
         assert!((pose.forward() - camera.forward()).length() < 1e-5);

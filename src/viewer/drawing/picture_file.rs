@@ -13,10 +13,10 @@ use crate::scene::Camera;
 use crate::trace::Tracer;
 use crate::viewer::drawing::scene_renderer::SAMPLES;
 use crate::viewer::picture::uploaded_scene::UploadedScene;
-use crate::viewer::settings::light::GroupDial;
 use crate::viewer::settings::picture_file::PictureSettings;
 use crate::viewer::solution::file_names::next_free_name;
 use crate::viewer::solution::solved::SolvedScene;
+use crate::viewer::solution::traced_view::TracedViewRequest;
 
 /// The next free name of a picture in `folder`.
 ///
@@ -42,22 +42,21 @@ pub fn drawn(
     Ok(picture_in_light(gpu, &scene.buffers, shadows, camera, size, render_settings, SAMPLES)?)
 }
 
-/// Traces the view with `settings.num_rays` rays a pixel; `None` if it was cancelled.
+/// Traces the view with `num_rays` rays a pixel; `None` if it was cancelled.
 #[must_use]
 pub fn traced(
     solved: &SolvedScene,
-    dials: &[GroupDial],
-    camera: &Camera,
-    settings: &PictureSettings,
-    render_settings: &RenderSettings,
+    request: &TracedViewRequest,
+    num_rays: u32,
     progress: &dyn Progress,
 ) -> Option<Picture> {
+    let TracedViewRequest { camera, size, settings, dials } = request;
     let baked = solved.dimmed(dials);
     let tracer = Tracer::new(&baked.scene);
     let ambient = Ambient::Indirect { final_gather: 0 };
-    let rays = TwoPassSettings { samples: settings.num_rays, ambient, seed: 0 };
-    let film = two_pass(&tracer, &baked, camera, settings.size, &rays, progress);
-    (!progress.is_cancelled()).then(|| tone_map_on_cpu(film.size(), film.radiance(), render_settings))
+    let rays = TwoPassSettings { samples: num_rays, ambient, seed: 0 };
+    let film = two_pass(&tracer, &baked, camera, *size, &rays, progress);
+    (!progress.is_cancelled()).then(|| tone_map_on_cpu(film.size(), film.radiance(), settings))
 }
 
 #[cfg(test)]

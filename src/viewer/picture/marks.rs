@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn heat_tints_every_element() {
+    fn the_heat_map_tints_every_element() {
         let scene = builtin::cornell();
         let mut marks = Marks::default();
         marks.heat(&scene, &vec![0.5; scene.triangles.len()]);

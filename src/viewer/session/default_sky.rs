@@ -9,7 +9,7 @@ use crate::base::ids::GroupId;
 use crate::scene::{Light, Scene};
 
 /// The advice that is shown for a scene with the default sky.
-pub const NOTE: &str = "the file brings no light: a default sky of 10 000 lx shines on it; \
+pub const NOTE: &str = "the file has no light: a default sky of 10 000 lx lights it; \
                         add a lamp or an emissive material and export lights too";
 
 /// Illuminance on open horizontal ground, lux: an overcast noon.

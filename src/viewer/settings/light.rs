@@ -190,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_group_that_is_off_has_no_weight_and_keeps_its_dial() {
+    fn groups_that_are_off_have_no_weight_and_keep_their_dials() {
         let scene = Scene { light_groups: vec!["lamps".into(), "sky".into()], ..Scene::default() };
         let mut settings = LightSettings::default();
         settings.reset_groups(&scene);
@@ -210,7 +210,7 @@ mod tests {
     }
 
     #[test]
-    fn exposure_by_hand_begins_with_what_was_metered() {
+    fn fixed_exposure_begins_with_the_metered_one() {
         let mut settings = LightSettings::default();
         settings.fix_exposure(Some(-4.0));
         settings.step_exposure(3.0);

@@ -8,7 +8,7 @@ use crate::viewer::camera::collider::Collider;
 
 const FRAME: f32 = 1.0 / 60.0;
 
-/// Quads, corner by corner.
+/// A scene of quadrilaterals.
 fn world(quads: &[[Vec3; 4]]) -> Collider {
     let mut builder = SceneBuilder::default();
     let grey = builder.material(Material::diffuse(Vec3::splat(0.5)));
@@ -23,7 +23,7 @@ fn level(y: f32, x: [f32; 2], z: [f32; 2]) -> [Vec3; 4] {
     [(0, 1), (1, 1), (1, 0), (0, 0)].map(|(i, j)| Vec3::new(x[i], y, z[j]))
 }
 
-/// An upright wall across the way at `z`.
+/// A vertical wall at `z`.
 fn wall(z: f32, x: [f32; 2], y: [f32; 2]) -> [Vec3; 4] {
     [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| Vec3::new(x[i], y[j], z))
 }
@@ -53,7 +53,7 @@ fn the_eye_keeps_its_height_above_the_floor() {
 }
 
 #[test]
-fn somebody_who_is_dropped_lands_on_the_floor() {
+fn a_walker_above_the_floor_falls_on_to_it() {
     let world = world(&[floor(), level(3.0, [-1.0, 1.0], [-1.0, 1.0])]);
     let mut walker = walker(Vec3::new(0.0, 3.0, 0.0), &world);
     walk(&mut walker, Vec3::X * 2.0, 1.0, FRAME, &world);
@@ -63,7 +63,7 @@ fn somebody_who_is_dropped_lands_on_the_floor() {
 }
 
 #[test]
-fn a_wall_stops_the_way_ahead_and_leaves_the_way_along() {
+fn walkers_slide_along_walls() {
     let world = world(&[floor(), wall(-2.0, [-10.0, 10.0], [0.0, 3.0])]);
     let mut walker = walker(Vec3::ZERO, &world);
     walk(&mut walker, Vec3::new(1.0, 0.0, -2.0), 4.0, FRAME, &world);
@@ -73,7 +73,7 @@ fn a_wall_stops_the_way_ahead_and_leaves_the_way_along() {
 }
 
 #[test]
-fn no_wall_is_too_thin_for_a_slow_computer() {
+fn long_frames_do_not_pass_through_thin_walls() {
     let world = world(&[floor(), wall(-2.0, [-10.0, 10.0], [0.0, 3.0])]);
     for frame in [0.25, 1.0] {
         let mut walker = walker(Vec3::ZERO, &world);
@@ -83,7 +83,7 @@ fn no_wall_is_too_thin_for_a_slow_computer() {
 }
 
 #[test]
-fn a_corner_holds_from_both_sides() {
+fn walkers_stay_in_corners() {
     let side =
         [Vec3::new(2.0, 0.0, -5.0), Vec3::new(2.0, 0.0, 5.0), Vec3::new(2.0, 3.0, 5.0), Vec3::new(2.0, 3.0, -5.0)];
     let world = world(&[floor(), wall(-2.0, [-10.0, 10.0], [0.0, 3.0]), side]);
@@ -131,7 +131,7 @@ fn the_eye_rises_smoothly_on_stairs() {
 }
 
 #[test]
-fn what_is_higher_than_a_step_is_a_wall() {
+fn obstacles_higher_than_a_step_are_walls() {
     let world = world(&stairs(0.6));
     let mut walker = walker(Vec3::ZERO, &world);
     walk(&mut walker, Vec3::NEG_Z * 2.0, 3.0, FRAME, &world);
@@ -139,7 +139,7 @@ fn what_is_higher_than_a_step_is_a_wall() {
 }
 
 #[test]
-fn a_step_below_a_low_ceiling_is_not_taken() {
+fn steps_below_a_low_ceiling_are_not_climbed() {
     let mut quads = stairs(0.3);
     quads.push(level(1.9, [-1.0, 1.0], [-4.0, -0.5]));
     let world = world(&quads);
@@ -149,7 +149,7 @@ fn a_step_below_a_low_ceiling_is_not_taken() {
 }
 
 #[test]
-fn a_ramp_is_walked_and_a_cliff_is_not() {
+fn ramps_are_climbed_and_cliffs_are_not() {
     let ramp = |height: f32| {
         let (low, high) = ([-10.0, 10.0], height);
         [
@@ -168,7 +168,7 @@ fn a_ramp_is_walked_and_a_cliff_is_not() {
 }
 
 #[test]
-fn a_gap_that_is_wide_enough_is_a_door() {
+fn gaps_are_passed_if_they_are_wide_enough() {
     let world = world(&[floor(), wall(-2.0, [-10.0, -0.3], [0.0, 3.0]), wall(-2.0, [0.3, 10.0], [0.0, 3.0])]);
     let mut walker = walker(Vec3::new(0.2, 0.0, 0.0), &world);
     walk(&mut walker, Vec3::NEG_Z * 2.0, 2.0, FRAME, &world);
@@ -176,7 +176,7 @@ fn a_gap_that_is_wide_enough_is_a_door() {
 }
 
 #[test]
-fn nobody_falls_out_of_the_world() {
+fn walkers_return_after_falling_out_of_the_scene() {
     let world = world(&[level(0.0, [-1.0, 1.0], [-1.0, 1.0])]);
     let mut walker = walker(Vec3::ZERO, &world);
     walk(&mut walker, Vec3::X * 2.0, 1.0, FRAME, &world);
@@ -186,12 +186,12 @@ fn nobody_falls_out_of_the_world() {
 }
 
 #[test]
-fn there_is_no_walking_without_a_floor() {
+fn walking_needs_a_floor() {
     let world = world(&[level(0.0, [-1.0, 1.0], [-1.0, 1.0])]);
     assert!(Walker::land(Body::of_scale(1.0), Vec3::new(5.0, 1.0, 0.0), &world).is_none());
 }
 
-/// Walks towards a place on the floor plan until it is near; fails where that takes too long.
+/// Walks towards a point of the floor plan and fails if that takes too long.
 fn walk_to(walker: &mut Walker, x: f32, z: f32, collider: &Collider) {
     const SPEED: f32 = 2.0;
     for _ in 0..1200 {
@@ -205,7 +205,7 @@ fn walk_to(walker: &mut Walker, x: f32, z: f32, collider: &Collider) {
 }
 
 #[test]
-fn the_gallery_is_walked_through_its_door_up_its_steps_and_back() {
+fn the_gallery_is_walkable_through_its_door_and_up_its_steps() {
     let gallery = Collider::new(&crate::scene::builtin::by_name("gallery").expect("it is built in"));
     let mut walker = walker(Vec3::new(-2.0, 0.0, 3.6), &gallery);
     for (x, z, floor) in [(1.5, 3.6, 0.0), (6.2, 3.6, 0.0), (9.2, 3.6, 1.02), (6.2, 3.6, 0.0), (-2.0, 3.6, 0.0)] {
@@ -224,7 +224,7 @@ fn a_random_walk_stays_in_the_gallery() {
     for step in 0..400 {
         let dice = |salt: u32| unit_float(hash(7 * step + salt));
         let direction = Vec3::new(dice(1) - 0.5, 0.0, dice(2) - 0.5).normalize_or_zero();
-        // From smooth frames to slideshows, crawling to running.
+        // Frames from short to very long, speeds from slow to running.
         let frame = 0.25 * dice(3) + 0.001;
         walk(&mut walker, direction * 5.0 * dice(4), 0.5, frame, &gallery);
         let eye = walker.eye();

@@ -1,4 +1,4 @@
-//! Readings against `measure` itself, closed forms of grids, and what the table says.
+//! Readings compared with `measure`, grids with closed forms, and the table.
 
 use std::sync::{Arc, OnceLock};
 
@@ -14,7 +14,7 @@ use crate::viewer::camera::collider::{Collider, Pick};
 use crate::viewer::settings::light::GroupDial;
 use crate::viewer::solution::solved::SolvedScene;
 
-/// A draft of the Cornell box by rays, baked once.
+/// The Cornell box, baked once in draft quality by rays.
 fn cornell() -> &'static SolvedScene {
     static SOLVED: OnceLock<SolvedScene> = OnceLock::new();
     SOLVED.get_or_init(|| {
@@ -30,7 +30,7 @@ fn cornell() -> &'static SolvedScene {
     })
 }
 
-/// What somebody in a corner of the box sees when looking down.
+/// The floor in a corner of the box, seen from above.
 fn floor_pick() -> Pick {
     let collider = Collider::new(&cornell().scene);
     collider.pick(Vec3::new(4.8, 3.0, 0.8), Vec3::NEG_Y, |_| false).expect("the floor")
@@ -50,13 +50,13 @@ fn the_meter_and_measure_give_the_same_number() {
 }
 
 #[test]
-fn the_shares_of_the_groups_are_one_and_dimming_follows_them() {
+fn shares_of_groups_sum_to_one_and_dimming_follows_them() {
     let reading = read(cornell(), point_of(&floor_pick()), &Unwatched).expect("nobody cancels");
     assert!((reading.group_shares().iter().sum::<f32>() - 1.0).abs() < 1e-5, "{:?}", reading.groups);
     let dial = |intensity| vec![GroupDial { intensity, ..GroupDial::of("lamp") }; reading.groups.len()];
     assert!((reading.dimmed_lux(&dial(0.5)) - 0.5 * reading.lux()).abs() < 1e-3 * reading.lux());
     assert_eq!(reading.dimmed_lux(&dial(0.0)), 0.0);
-    // Stored light is that of the vertices round the point: near what is measured there.
+    // Stored light is interpolated between vertices, and near to what is measured.
     let stored: f32 = reading.groups.iter().map(|group| luminance(group.direct + group.indirect)).sum();
     assert!((stored / reading.lux() - 1.0).abs() < 0.25, "{stored} {}", reading.lux());
 }
@@ -75,7 +75,7 @@ fn the_reading_names_its_surface() {
 }
 
 #[test]
-fn a_grid_lies_on_its_surface_and_its_numbers_agree() {
+fn a_grid_lies_on_its_surface_and_its_statistics_agree() {
     let solved = cornell();
     let pick = floor_pick();
     let plan = GridPlan::over(&solved.scene, &pick, 1.1, 0.0);
@@ -92,7 +92,7 @@ fn a_grid_lies_on_its_surface_and_its_numbers_agree() {
 }
 
 #[test]
-fn a_fine_grid_on_a_large_floor_is_widened() {
+fn the_spacing_of_a_grid_is_widened_on_a_large_floor() {
     let plan = GridPlan::over(&cornell().scene, &floor_pick(), 1e-3, 0.8);
     assert!(plan.points.len() <= 400 && plan.spacing > 0.1, "{} at {}", plan.points.len(), plan.spacing);
     assert!((plan.points[0].position.y - floor_pick().point.y - 0.8).abs() < 1e-4);

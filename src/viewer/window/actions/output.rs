@@ -14,7 +14,7 @@ use crate::viewer::settings::picture_file::PictureSettings;
 use crate::viewer::solution::file_names::next_free_name;
 use crate::viewer::solution::meter;
 use crate::viewer::solution::solved::SolvedScene;
-use crate::viewer::solution::traced_view::with_fixed_exposure;
+use crate::viewer::solution::traced_view::{TracedViewRequest, with_fixed_exposure};
 use crate::viewer::window::viewer::Viewer;
 
 impl Viewer {
@@ -37,16 +37,17 @@ impl Viewer {
     pub(super) fn write_picture(&mut self) {
         let settings = self.panels.preferences.picture;
         let Some(OpenScene { controller, uploaded, solved, is_lit, .. }) = &self.session.open_scene else { return };
-        let camera = controller.pose.camera();
-        let render_settings = with_fixed_exposure(&self.panels.light.render_settings(*is_lit), self.metered_ev());
-        let dials = self.panels.light.groups.clone();
+        let view = TracedViewRequest {
+            camera: controller.pose.camera(),
+            size: settings.size,
+            settings: with_fixed_exposure(&self.panels.light.render_settings(*is_lit), self.metered_ev()),
+            dials: self.panels.light.groups.clone(),
+        };
         let (gpu, uploaded, solved) = (Arc::clone(&self.surface.gpu), uploaded.clone(), solved.clone());
         let started = self.jobs.start(JobKind::Write, move |job| {
             let picture = match (settings.num_rays, &solved) {
-                (1.., Some(solved)) => {
-                    Ok(picture_file::traced(solved, &dials, &camera, &settings, &render_settings, job))
-                }
-                _ => picture_file::drawn(&gpu, &uploaded, &camera, settings.size, &render_settings).map(Some),
+                (num_rays @ 1.., Some(solved)) => Ok(picture_file::traced(solved, &view, num_rays, job)),
+                _ => picture_file::drawn(&gpu, &uploaded, &view.camera, view.size, &view.settings).map(Some),
             };
             // A cancelled picture is `None` and leaves no file.
             if let Some(picture) = picture.transpose() {

@@ -111,7 +111,11 @@ impl Viewer {
     fn toggle_tracing(&mut self) {
         let traces = &mut self.panels.preferences.traces_stills;
         *traces = !*traces;
-        let text = if *traces { "A still camera traces rays" } else { "No rays for a still camera" };
+        let text = if *traces {
+            "Rays are traced while the camera rests"
+        } else {
+            "No rays are traced while the camera rests"
+        };
         self.notify(text);
     }
 
