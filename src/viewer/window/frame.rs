@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 use winit::event_loop::ControlFlow;
 
 use crate::viewer::action::Action;
-use crate::viewer::job::JobKind;
+use crate::viewer::panels::Facts;
 use crate::viewer::panels::shapes::PanelShapes;
-use crate::viewer::panels::{BakeFacts, CameraFacts, Facts, MeasurementFacts, PictureFacts, SceneFacts, ShadowFacts};
 use crate::viewer::session::worker::Worker;
 use crate::viewer::settings::view::Tab;
+use crate::viewer::window::facts;
 use crate::viewer::window::surface::FrameOutcome;
 use crate::viewer::window::viewer::Viewer;
 
@@ -66,61 +66,20 @@ impl Viewer {
     /// Lays out the panels. Returns their triangles and the actions that they request.
     fn lay_out(&mut self) -> (PanelShapes, Vec<Action>) {
         let open_scene = self.session.open_scene.as_ref();
-        let next_settings = self.next_settings();
+        let settings = self.next_settings();
         // The sizes need the area of the scene, which is summed only for the page that shows them.
         let scene_of_page = open_scene.filter(|_| self.panels.preferences.tab == Tab::Solution);
+        let next_bake = scene_of_page.map(|open_scene| (settings, open_scene.mesh_sizes(&settings)));
         let curve = self.session.curve();
-        let solved = open_scene.and_then(|open_scene| open_scene.solved.as_deref());
+        let bookmarks = self.panels.preferences.bookmarks_of(&self.session.name());
         let is_visible = |point| open_scene.is_some_and(|open_scene| open_scene.sees(point));
-        let measurements = &self.results.measurements;
-        let laps = self.surface.canvas.laps();
         let facts = Facts {
-            scene: SceneFacts {
-                open: open_scene.map(|open_scene| &*open_scene.scene),
-                variant: self.session.variant(),
-                num_elements: self.session.num_elements(),
-                advice: open_scene.map_or(&[], |open_scene| &open_scene.advice),
-            },
-            bake: BakeFacts {
-                light: self.session.light_state(),
-                is_solved: solved.is_some(),
-                next: scene_of_page.map(|open_scene| (next_settings, open_scene.mesh_sizes(&next_settings))),
-                curve: &curve,
-                report: solved.and_then(|solved| solved.report.as_ref()),
-                recording: self.results.recording.as_deref(),
-                is_recording: self.jobs.is_running(JobKind::Record),
-            },
-            camera: CameraFacts {
-                pose: open_scene.map(|open_scene| open_scene.controller.pose),
-                is_walking: open_scene.is_some_and(|open_scene| open_scene.controller.is_walking()),
-                speed: open_scene.map_or(0.0, |open_scene| open_scene.controller.speed()),
-                is_captured: self.controls.mouse.is_captured(),
-                bookmarks: self.panels.preferences.bookmarks_of(&self.session.name()),
-                is_visible: &is_visible,
-            },
-            picture: PictureFacts {
-                size: self.picture.size,
-                num_rays: self.picture.notes.num_rays,
-                is_writing: self.jobs.is_running(JobKind::Write),
-                frame_rate: self.pacer.frame_rate(),
-                frame_seconds: self.pacer.frame_seconds(),
-                adapter: &self.adapter,
-            },
-            shadows: ShadowFacts {
-                num_light_samples: self.picture.notes.num_light_samples,
-                num_points: self.num_points(),
-                difference: self.surface.canvas.difference(),
-                fault: self.picture.notes.fault.as_deref(),
-                laps: &laps.passes,
-                has_device_clock: laps.is_of_device,
-            },
-            measurement: MeasurementFacts {
-                last: measurements.last.as_ref(),
-                pins: &measurements.pins,
-                grid: measurements.grid.as_ref(),
-                patch_view: self.results.patch_view.as_ref(),
-                is_busy: self.jobs.is_running(JobKind::Measure),
-            },
+            scene: facts::of_scene(&self.session),
+            bake: facts::of_bake(&self.session, &self.results, &self.jobs, next_bake, &curve),
+            camera: facts::of_camera(open_scene, self.controls.mouse.is_captured(), bookmarks, &is_visible),
+            picture: facts::of_picture(&self.picture, &self.jobs, &self.pacer, &self.adapter),
+            shadows: facts::of_shadows(&self.picture, &self.surface.canvas, self.num_points()),
+            measurement: facts::of_measurement(&self.results, &self.jobs),
         };
         let (mut actions, mut free) = (Vec::new(), egui::Rect::ZERO);
         let mut shapes = self.gui.run(&self.window, |ui| (actions, free) = self.panels.ui(ui, &facts));

@@ -9,6 +9,7 @@ pub(super) mod app;
 mod accumulation;
 mod actions;
 mod events;
+mod facts;
 mod frame;
 mod gui;
 mod input;
