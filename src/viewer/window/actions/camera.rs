@@ -30,10 +30,8 @@ impl Viewer {
                 }
             }
             Action::SetFieldOfView(degrees) => controller.pose.fov_y = degrees.to_radians(),
-            Action::ToggleWalking => {
-                if controller.toggle_walking(collider).is_err() {
-                    self.notify("No floor below to walk on: still flying");
-                }
+            Action::ToggleWalking if controller.toggle_walking(collider).is_err() => {
+                self.notify("No floor below to walk on: still flying");
             }
             Action::GoToCamera(index) => self.go_to_camera(index),
             Action::StepCamera(steps) => {
