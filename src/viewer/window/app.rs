@@ -57,7 +57,16 @@ impl App {
         let window = Arc::new(event_loop.create_window(attributes).context("cannot open a window")?);
         // Without a window manager no window has the focus, and by default raw motion is reported to that one only.
         event_loop.listen_device_events(DeviceEvents::Always);
-        Viewer::new(window, &self.options, self.proxy.clone())
+        self.viewer_in(window, &self.options)
+    }
+
+    /// A viewer in a window, with the folder of shaders watched if one is given.
+    fn viewer_in(&self, window: Arc<Window>, options: &ViewerOptions) -> anyhow::Result<Viewer> {
+        let mut viewer = Viewer::new(window, options, self.proxy.clone())?;
+        if let Some(folder) = options.shaders.clone() {
+            viewer.watch_shaders(folder, self.proxy.clone());
+        }
+        Ok(viewer)
     }
 
     /// Replaces a device that draws no more. The scene is loaded again, and a message says why.
@@ -70,7 +79,7 @@ impl App {
                 let (window, options, pose) = lost.reopening(&self.options);
                 // Before there is a new surface, the old one must go.
                 drop(lost);
-                Viewer::new(window, &options, self.proxy.clone()).map(|viewer| viewer.after_loss(&error, pose))
+                self.viewer_in(window, &options).map(|viewer| viewer.after_loss(&error, pose))
             }
             _ => Err(error),
         };

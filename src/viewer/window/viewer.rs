@@ -74,11 +74,11 @@ impl Viewer {
             // The event loop is gone once the window is closed.
             let _ = job_events.send_event(UserEvent::Job { number, result });
         });
-        let mut session = Session::new(Arc::clone(&surface.gpu), proxy.clone());
+        let mut session = Session::new(Arc::clone(&surface.gpu), proxy);
         let source = options.scene.clone().map_or_else(Source::default, Source::of);
         session.open(source, options.variant.clone(), options.settings)?;
         let preferences = Preferences::path().map_or_else(Preferences::default, |path| Preferences::read(&path));
-        let mut viewer = Self {
+        Ok(Self {
             adapter: surface.gpu.name(),
             picture: PictureState::new(surface.size()),
             saved: SavedPreferences { preferences: preferences.clone(), at: Instant::now() },
@@ -94,11 +94,7 @@ impl Viewer {
             results: Results::default(),
             shader_watch: None,
             failure: None,
-        };
-        if let Some(folder) = options.shaders.clone() {
-            viewer.watch_shaders(folder, proxy);
-        }
-        Ok(viewer)
+        })
     }
 
     /// What opens the same scene again: the window, options, and pose of the camera.
