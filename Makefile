@@ -1,24 +1,30 @@
-# Everything one needs to know to run, test and measure Hemicube.
-# On Debian and Ubuntu the targets install what is missing (with sudo if need be); cargo itself is expected.
+# Runs, tests and measures Hemicube.
+# On Debian and Ubuntu the targets install missing system packages (with sudo if necessary); Rust itself has to be installed.
 
-.PHONY: run test assets pictures bench setup
+.PHONY: run test examples assets pictures bench setup
 
+# Opens the viewer, or renders the built-in gallery if there is no display.
 run: setup
-	.ci/view
+	scripts/view
 
+# Unit tests, integration tests, doctests, and each example.
 test: setup
 	cargo test
+	$(MAKE) examples
 
-# Writes assets/*.glb anew from src/scene/builtin.
+examples: setup
+	for file in examples/*.rs; do cargo run --quiet --example $$(basename $$file .rs) || exit 1; done
+
+# Writes assets/*.glb from src/scene/builtin.
 assets:
 	UPDATE_ASSETS=1 cargo test --test all assets
 
-# Renders the pictures of README's tour anew.
+# Renders the pictures of the tour.
 pictures: setup
-	.ci/pictures
+	scripts/pictures
 
 bench:
 	cargo bench
 
 setup:
-	.ci/setup
+	scripts/setup
