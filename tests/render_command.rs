@@ -1,4 +1,4 @@
-//! `hemicube render` as a user calls it; ambient light, so that nothing has to be baked.
+//! `hemicube render` as a user runs it, with ambient light, which needs no bake.
 
 use std::path::Path;
 use std::process::{Command, Output};
@@ -19,7 +19,7 @@ fn render_sized(folder: &Path, size: &str, file: &str, options: &[&str]) -> Outp
         .expect("the program runs")
 }
 
-/// The program fails with one message that holds these words.
+/// Asserts that the program fails with a message that contains these words.
 #[track_caller]
 fn assert_fails(output: &Output, words: &[&str]) {
     let message = String::from_utf8_lossy(&output.stderr);
@@ -40,7 +40,7 @@ fn a_picture_agrees_with_itself_and_not_with_another() {
     }
     let brighter = render(folder.path(), "b.png", &["--exposure", "3", "--reference", "a.png"]);
     assert_fails(&brighter, &["differs", "relative error", "b.png"]);
-    // Radiance knows no exposure.
+    // Radiance does not depend on exposure.
     let brighter = render(folder.path(), "b.png", &["--exposure", "3", "--reference", "a.exr"]);
     assert!(brighter.status.success(), "{brighter:?}");
     let larger = render_sized(folder.path(), "80x64", "b.png", &["--reference", "a.png"]);
@@ -48,7 +48,7 @@ fn a_picture_agrees_with_itself_and_not_with_another() {
 }
 
 #[test]
-fn wishes_that_cannot_be_met_are_named() {
+fn errors_name_the_option_at_fault() {
     if gpu().is_none() {
         return;
     }

@@ -17,7 +17,7 @@ use crate::base::output::write_whole;
 use crate::form_factor::row_cache::RowCache;
 use crate::render::Exposure;
 
-/// A row cache does not grow beyond this.
+/// Largest size of a row cache, bytes.
 const ROW_CACHE_BYTES: u64 = 1 << 30;
 
 /// Options of `hemicube bake`.
@@ -27,30 +27,31 @@ pub struct BakeArgs {
     /// builtin:cornell or builtin:mirrors.
     #[arg(default_value = "builtin:gallery")]
     pub scene: PathBuf,
-    /// Which materials it wears.
+    /// Material variant of the file.
     #[command(flatten)]
     pub variant: VariantOption,
     /// The baked scene, a .glb.
     #[arg(short, long, value_name = "OUT.glb")]
     pub output: PathBuf,
-    /// Exposure at which programs that know nothing of stored light show it: displayed = radiance x 2^EV; auto suits the
-    /// whole scene, and is told.
+    /// Exposure in stops for programs that cannot read the stored light: displayed = radiance x 2^EV; auto suits the
+    /// whole scene and is printed.
     #[arg(long, value_name = "EV|auto", default_value = "auto", value_parser = exposure, allow_negative_numbers = true)]
     pub exposure: Exposure,
     /// How to bake.
     #[command(flatten)]
     pub bake: BakeOptions,
-    /// Whether light is also written as a texture.
+    /// Options of the lightmap.
     #[command(flatten)]
     pub lightmap: LightmapOptions,
-    /// Ends when this share of the first reflected power is unshot [default: 0.01, 0.001 or 0.0003 by preset].
+    /// Ends the solver when this share of the reflected direct light is unshot [default: 0.01, 0.001 or 0.0003 by
+    /// preset].
     #[arg(long, value_name = "X", value_parser = positive)]
     pub threshold: Option<f32>,
-    /// Keeps rows of form factors in this file, up to a gibibyte: a bake that was stopped goes on from there, and one of the
-    /// same geometry with other colours or lamps looks at less.
+    /// Keeps form factors in this file, up to 1 GiB: a stopped bake continues from there, and a bake of the same
+    /// geometry with other colours or lamps is faster.
     #[arg(long, value_name = "FILE")]
     pub row_cache: Option<PathBuf>,
-    /// Writes the solution's certificate: counts, energy balance, times.
+    /// Writes the certificate of the bake: counts, energy balance, times (s).
     #[arg(long, value_name = "R.json")]
     pub report: Option<PathBuf>,
 }

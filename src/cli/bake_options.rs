@@ -8,30 +8,28 @@ use crate::bake::{BakeSettings, Method, Quality, Refinement, Solver};
 /// How to bake.
 #[derive(Args, Clone, Debug)]
 pub struct BakeOptions {
-    /// Preset: draft is a first look, medium for walking through, high for measuring.
+    /// Preset of all settings that are not given.
     #[arg(long, value_enum, default_value = "medium")]
     pub quality: QualityName,
-    /// Longest element edge in metres [default: chosen from the scene's area and the preset].
+    /// Longest edge of an element, metres [default: from the area of the scene and the preset].
     #[arg(long, value_name = "M", value_parser = positive)]
     pub element_size: Option<f32>,
-    /// Elements are halved where light deviates by this share from what lies between their corners; 0 leaves them of one size
-    /// [default: 0.1, 0.04 or 0.02 by preset].
+    /// Halves elements in which light deviates by more than this share from interpolation between their corners; 0
+    /// halves none [default: 0.1, 0.04 or 0.02 by preset].
     #[arg(long, value_name = "SHARE", value_parser = share)]
     pub refine: Option<f32>,
-    /// Width of the gathering hemicubes in pixels, a power of two from 16 to 512 [default: 32, 64 or 128 by preset].
+    /// Width of the hemicubes at the vertices, pixels: a power of two from 16 to 512 [default: 32, 64 or 128 by
+    /// preset].
     #[arg(long, value_name = "PX", value_parser = hemicube_size)]
     pub hemicube_size: Option<u32>,
-    /// How form factors are found: hemicubes need a GPU or its software driver, hemispheres (rays) need none [default: the
-    /// faster one here].
+    /// How form factors are computed [default: the faster one on this machine]. All methods give the same light.
     #[arg(long, value_enum, value_name = "METHOD")]
     pub method: Option<MethodName>,
-    /// How the system is solved: by shooting, by gathering pass after pass, or as a full matrix (small scenes); all lead to
-    /// one answer.
+    /// How the radiosity equation is solved. All solvers give the same light.
     #[arg(long, value_enum, value_name = "SOLVER", default_value = "progressive")]
     pub solver: SolverName,
-    /// Gathering ends with the light of N reflections, 0 showing the lamps and 1 direct light alone [default: when nothing
-    /// changes];
-    /// progressive refinement ends after N shots a patch on average [default: 64].
+    /// With gathering: ends after N passes; 0 shows the lamps, 1 direct light, 2 the first reflection [default: when
+    /// the light converges]. With progressive: ends after N shots a patch on average [default: 64].
     #[arg(long, value_name = "N")]
     pub passes: Option<u32>,
 }

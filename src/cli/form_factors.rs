@@ -14,35 +14,36 @@ use crate::gpu::Gpu;
 /// Options of `hemicube form-factors`.
 #[derive(Args, Debug)]
 pub struct FormFactorArgs {
-    /// Table of pairs: a header, then name,polygon_A,polygon_B,blocker a line; polygons convex and planar, written
-    /// "x y z;x y z;...", counter-clockwise from the front; the blocker may be empty; further columns are ignored.
+    /// Table of pairs: a header, then name,polygon_A,polygon_B,blocker a line. Polygons are convex and planar, written
+    /// as "x y z;x y z;..." in metres, counter-clockwise as seen from the front; the blocker may be empty; further
+    /// columns are ignored.
     pub pairs: PathBuf,
-    /// How they are found: closed forms, rays (no GPU needed) or GPU item buffers.
+    /// How form factors are computed.
     #[arg(long, value_enum, value_name = "METHOD")]
     pub method: PairMethod,
     /// Table of form factors, in the same order: name,F_AB,stderr.
     #[arg(short, long, value_name = "F.csv")]
     pub output: PathBuf,
-    /// Width of the hemicubes in pixels, a power of two from 16 to 512.
+    /// With hemicube: width of the hemicubes, pixels: a power of two from 16 to 512.
     #[arg(long, value_name = "PX", default_value = "256", value_parser = hemicube_size)]
     pub hemicube_size: u32,
 }
 
-/// Methods as written on the command line.
+/// How form factors are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum PairMethod {
-    /// Contour integrals, and Lambert's formula behind a blocker.
+    /// Closed forms: contour integrals, and Lambert's formula if there is a blocker.
     Analytic,
-    /// Cosine-distributed rays.
+    /// Cosine-distributed rays; needs no GPU.
     Hemisphere,
-    /// GPU item buffers.
+    /// Item buffers drawn by the GPU.
     Hemicube,
 }
 
-/// Finds and writes the form factors.
+/// Computes and writes the form factors.
 ///
 /// # Errors
-/// The pairs cannot be read, no driver answers where hemicubes are wanted, or the table cannot be written.
+/// Returns an error if the pairs cannot be read, hemicubes have no driver, or the table cannot be written.
 pub fn run(args: &FormFactorArgs) -> Result<()> {
     let pairs = read_pairs(&args.pairs)?;
     let gpu = match args.method {

@@ -15,22 +15,23 @@ use crate::scene::{Camera, Light, LightKind, Projection, Scene, doctor};
 /// Options of `hemicube info`.
 #[derive(Args, Debug)]
 pub struct InfoArgs {
-    /// Scene to look into: .glb or .gltf; FILE#NAME chooses one of its scenes.
+    /// Scene to describe: .glb or .gltf; FILE#NAME chooses one of its scenes.
     pub scene: PathBuf,
-    /// Which materials it wears.
+    /// Material variant of the file.
     #[command(flatten)]
     pub variant: VariantOption,
 }
 
 /// Prints the report on stdout.
 ///
-/// Errors: the scene cannot be loaded.
+/// # Errors
+/// Returns an error if the scene cannot be loaded.
 pub fn run(args: &InfoArgs) -> Result<()> {
     let scene = load(&args.scene, &args.variant)?;
     let mut text = String::new();
     write_report(&mut text, &scene)?;
     match std::io::stdout().write_all(text.as_bytes()) {
-        // The reader has seen enough, as in `hemicube info X | head`.
+        // The reader has closed the pipe, as in `hemicube info X | head`.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         other => Ok(other?),
     }
@@ -64,7 +65,7 @@ fn write_report(out: &mut String, scene: &Scene) -> fmt::Result {
     list(out, "mesh doctor", &doctor::examine(scene).lines())
 }
 
-/// What a bake would take, preset by preset.
+/// The predicted cost of a bake with each preset.
 fn forecasts(scene: &Scene) -> impl Iterator<Item = (String, String)> {
     [("draft", Quality::Draft), ("medium", Quality::Medium), ("high", Quality::High)].into_iter().filter_map(
         |(name, quality)| {
@@ -81,7 +82,7 @@ fn row(out: &mut String, label: &str, value: impl fmt::Display) -> fmt::Result {
     writeln!(out, "  {label:<12}{value}")
 }
 
-/// A heading and aligned pairs; nothing where there are none.
+/// A heading and aligned pairs; nothing if there are no pairs.
 fn section(out: &mut String, title: &str, pairs: impl Iterator<Item = (String, String)>) -> fmt::Result {
     let pairs: Vec<_> = pairs.collect();
     let width = pairs.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0).max(10);

@@ -12,14 +12,14 @@ use crate::base::output::write_whole;
 use crate::lightmap::{LightmapSettings, lightmap};
 use crate::scene::Scene;
 
-/// Whether and how light is written as a texture.
+/// Options of the lightmap.
 #[derive(Args, Clone, Debug)]
 pub struct LightmapOptions {
-    /// Also writes the scene as it was, not cut into elements, with its light in a texture: OUT-lightmap.glb (second set of
-    /// texture coordinates, MOZ_lightmap) and the texture in lux, OUT-lightmap.exr.
+    /// Also writes the input scene with its light in a texture: OUT-lightmap.glb (second set of texture coordinates,
+    /// MOZ_lightmap) and the texture in lux, OUT-lightmap.exr.
     #[arg(long)]
     pub lightmap: bool,
-    /// Width of a texel on the surfaces in metres; larger where the texture would exceed 4096 x 4096 [default: a 16th of the
+    /// Width of a texel on the surfaces, metres; enlarged if the texture would exceed 4096 x 4096 [default: 1/16 of the
     /// element size].
     #[arg(long, value_name = "M", value_parser = positive, requires = "lightmap")]
     pub texel_size: Option<f32>,
@@ -58,7 +58,7 @@ pub fn write_lightmap(map: &Lightmap, output: &Path, exposure_ev: f32) -> Result
     ))
 }
 
-/// The lightmap's file beside the baked one.
+/// A file of the lightmap beside the baked scene.
 fn beside(output: &Path, extension: &str) -> PathBuf {
     let stem = output.file_stem().unwrap_or_default().to_string_lossy();
     output.with_file_name(format!("{stem}-lightmap.{extension}"))

@@ -1,4 +1,4 @@
-//! Floor 7: the command line. One file a subcommand; errors are printed once, by `main`.
+//! Floor 7: the command line, one file or room for each subcommand. Errors are printed once, by `main`.
 
 mod bake;
 mod bake_options;
@@ -22,24 +22,24 @@ use terminal::Terminal;
 #[derive(Debug, Parser)]
 #[command(version, args_conflicts_with_subcommands = true)]
 pub struct Cli {
-    /// What to do; without it the viewer opens.
+    /// The subcommand; without one the viewer opens.
     #[command(subcommand)]
     pub command: Option<Command>,
     /// Options of the viewer.
     #[command(flatten)]
     pub view: view::ViewArgs,
-    /// How much is told.
+    /// How much is printed.
     #[command(flatten)]
     pub verbosity: Verbosity,
 }
 
-/// How much is told on stderr.
+/// How much is printed on stderr.
 #[derive(Args, Debug)]
 pub struct Verbosity {
-    /// Tell more; twice for details.
+    /// Print more; -vv prints details.
     #[arg(short, long, action = clap::ArgAction::Count, global = true)]
     verbose: u8,
-    /// Tell nothing but errors.
+    /// Print errors only.
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     quiet: bool,
 }
@@ -51,11 +51,11 @@ pub enum Command {
     Bake(bake::BakeArgs),
     /// Draw a picture of a scene, with the light stored in the file or baked now.
     Render(render::RenderArgs),
-    /// Find the irradiance at given points.
+    /// Compute the irradiance at given points.
     Measure(measure::MeasureArgs),
-    /// Find the form factors (view factors) between pairs of polygons.
+    /// Compute the form factors (view factors) between pairs of polygons.
     FormFactors(form_factors::FormFactorArgs),
-    /// Tell what is in a scene and what the mesh doctor finds.
+    /// Print what is in a scene, what the mesh doctor finds and the predicted cost of a bake.
     Info(info::InfoArgs),
 }
 

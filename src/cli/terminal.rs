@@ -40,8 +40,8 @@ impl Terminal {
         }
     }
 
-    /// Watches work that Ctrl-C ends. It draws a progress bar if stderr is a terminal; all watches of the process share one
-    /// handler of Ctrl-C.
+    /// Watches work that Ctrl-C ends. It draws a progress bar if stderr is a terminal; all watches of the process share
+    /// one handler of Ctrl-C.
     ///
     /// # Errors
     /// Returns an error if the handler cannot be installed.

@@ -16,17 +16,17 @@ pub struct ViewArgs {
     /// Scene to open: .glb or .gltf, also a baked one (FILE#NAME chooses one of its scenes), or builtin:NAME
     /// [default: builtin:gallery].
     pub scene: Option<PathBuf>,
-    /// Which materials it wears at first.
+    /// Material variant of the file.
     #[command(flatten)]
     pub variant: VariantOption,
-    /// How to bake a scene that brings no light.
+    /// How to bake a file that stores no light.
     #[command(flatten)]
     pub bake: BakeOptions,
     /// Reads shaders from the .wgsl files in a folder and again whenever one changes; an error is shown in the window while the
     /// last valid shaders stay in use [default in a debug build: shaders/ of the source tree].
     #[arg(long, value_name = "DIR")]
     pub shaders: Option<PathBuf>,
-    /// Logs the time of each frame: seconds from when it was wanted, and 1 where a bake was running.
+    /// Logs the time of each frame: seconds since it was requested, and 1 if a bake was running.
     #[arg(long, value_name = "FILE", hide = true)]
     pub frame_log: Option<PathBuf>,
 }

@@ -1,4 +1,4 @@
-//! Pictures of the panels, and panels under random input.
+//! Snapshots of the panels, and panels under random input.
 
 use std::time::Duration;
 
@@ -25,7 +25,7 @@ use crate::support::screen::screen;
 use crate::support::snapshot::assert_snapshot;
 
 const WINDOW: [u32; 2] = [1280, 720];
-/// Only the side panel is compared: the rest is the picture's.
+/// Width of the side panel, which alone is compared.
 const SIDE: u32 = 312;
 
 fn facts(scene: &Scene) -> Facts<'_> {
@@ -68,7 +68,7 @@ fn input(events: Vec<Event>, size: Vec2) -> RawInput {
     RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), events, ..RawInput::default() }
 }
 
-/// Panels on a screen of their own, painted anew each time or with a side that is kept.
+/// Panels on a screen of their own, repainted in each frame or with a cached side panel.
 struct Sheet {
     ctx: egui::Context,
     painter: egui_wgpu::Renderer,
@@ -128,10 +128,10 @@ impl Sheet {
     }
 }
 
-/// The side panel as it is drawn.
+/// The picture of the side panel.
 fn side_picture(gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Picture {
     let mut sheet = Sheet::new(gpu, None);
-    // Sizes settle in the first frames.
+    // egui needs some frames until all sizes are final.
     let [_, _, bytes] = [(); 3].map(|()| sheet.frame(gpu, panels, facts));
     let row = 4 * WINDOW[0] as usize;
     let display = bytes.chunks_exact(row).flat_map(|line| &line[row - 4 * SIDE as usize..]).copied().collect();
@@ -139,7 +139,7 @@ fn side_picture(gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Picture {
 }
 
 #[test]
-fn a_side_that_is_kept_looks_as_if_painted_anew() {
+fn a_cached_side_panel_looks_like_a_repainted_one() {
     let Some(gpu) = gpu() else { return };
     let scene = builtin::cornell();
     let mut sheets = [Some(KeptSide::default()), None].map(|kept| Sheet::new(gpu, kept));
@@ -155,7 +155,7 @@ fn a_side_that_is_kept_looks_as_if_painted_anew() {
                 10 => panels.shows_help = true,
                 _ => {}
             }
-            // The status bar changes every time, the side does not.
+            // The status line changes in each step, the side panel does not.
             let mut facts = facts(&scene);
             facts.picture.frame_rate = 30.0 + step as f32;
             sheets[which].frame(gpu, panels, &facts)
@@ -165,7 +165,7 @@ fn a_side_that_is_kept_looks_as_if_painted_anew() {
 }
 
 #[test]
-fn the_panels_look_as_they_did() {
+fn the_pages_match_their_snapshots() {
     let Some(gpu) = gpu() else { return };
     let scene = builtin::cornell();
     for (tab, name) in [
@@ -181,7 +181,7 @@ fn the_panels_look_as_they_did() {
     }
 }
 
-/// Random but repeatable numbers.
+/// Repeatable random numbers.
 struct Dice(u32);
 
 impl Dice {
@@ -195,7 +195,7 @@ impl Dice {
     }
 }
 
-/// One event out of pointer, wheel, keys and text.
+/// A random event of pointer, wheel, keys or text.
 fn event(dice: &mut Dice, size: Vec2) -> Event {
     let at = Pos2::new(dice.number() * 1.1 * size.x, dice.number() * 1.1 * size.y);
     let button = [PointerButton::Primary, PointerButton::Secondary][dice.below(2)];
@@ -223,9 +223,9 @@ fn event(dice: &mut Dice, size: Vec2) -> Event {
     }
 }
 
-/// `HEMICUBE_RANDOM_FRAMES` makes it longer.
+/// `HEMICUBE_RANDOM_FRAMES` sets the number of frames.
 #[test]
-fn random_input_never_upsets_the_panels() {
+fn random_input_keeps_the_settings_valid() {
     let num_frames = std::env::var("HEMICUBE_RANDOM_FRAMES").ok().and_then(|text| text.parse().ok()).unwrap_or(400);
     let scene = builtin::cornell();
     let sections = ["Shadows", "Lux meter", "Scene", "Output", "Files", "Statistics"].map(|title| (title, true));
@@ -245,10 +245,10 @@ fn random_input_never_upsets_the_panels() {
         if dice.below(30) == 0 {
             panels.preferences.tab = [Tab::Picture, Tab::Solution, Tab::Meter, Tab::Place][dice.below(4)];
         }
-        let mut asked = Vec::new();
-        let output = ctx.run_ui(input(events, size), |ui| asked = panels.ui(ui, &facts).0);
+        let mut actions = Vec::new();
+        let output = ctx.run_ui(input(events, size), |ui| actions = panels.ui(ui, &facts).0);
         output.drop_without_applying_deltas();
-        num_actions += asked.len();
+        num_actions += actions.len();
         let settings = panels.light.render_settings(true);
         assert!(settings.lux_scale.high > settings.lux_scale.low && settings.lux_scale.low >= 0.0, "{settings:?}");
         assert!(
@@ -256,5 +256,5 @@ fn random_input_never_upsets_the_panels() {
             "{settings:?}"
         );
     }
-    assert!(num_actions > 0, "nothing was ever hit");
+    assert!(num_actions > 0, "no control was hit");
 }

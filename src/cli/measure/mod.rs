@@ -30,10 +30,12 @@ pub struct MeasureArgs {
     /// Material variant of the file.
     #[command(flatten)]
     pub variant: VariantOption,
-    /// Table of points: a header, then px,py,pz,nx,ny,nz a line (position in metres, normal); further columns are ignored.
+    /// Table of points: a header, then px,py,pz,nx,ny,nz a line (position in metres, normal); further columns are
+    /// ignored.
     #[arg(long, value_name = "P.csv")]
     pub points: PathBuf,
-    /// Table of irradiance (lux), in the same order: px,py,pz,nx,ny,nz,E_r,E_g,E_b,Ed_r,Ed_g,Ed_b,lux (Ed: direct part).
+    /// Table of irradiance (lux), in the same order: px,py,pz,nx,ny,nz,E_r,E_g,E_b,Ed_r,Ed_g,Ed_b,lux (Ed: direct
+    /// part).
     #[arg(short, long, value_name = "E.csv")]
     pub output: PathBuf,
     /// Interpolates the light stored at the vertices round each point, as the viewer shows it.
@@ -73,8 +75,8 @@ struct LitScene {
 /// Measures and writes the table.
 ///
 /// # Errors
-/// Returns an error if the scene or the points cannot be read, the scene cannot be baked, the user stops it, or the table cannot
-/// be written.
+/// Returns an error if the scene or the points cannot be read, the scene cannot be baked, the user stops it, or the
+/// table cannot be written.
 pub fn run(args: &MeasureArgs, terminal: Terminal) -> Result<()> {
     let points = read_points(&args.points)?;
     let scene = load(&args.scene, &args.variant)?;

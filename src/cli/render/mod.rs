@@ -30,8 +30,8 @@ use shadow_comparison::compare_shadows;
 /// Makes the picture, writes it and compares it with the reference.
 ///
 /// # Errors
-/// Returns an error if the scene or the reference cannot be loaded, the scene cannot be baked, the picture cannot be written, or
-/// it differs from the reference by more than the threshold.
+/// Returns an error if the scene or the reference cannot be loaded, the scene cannot be baked, the picture cannot be
+/// written, or it differs from the reference by more than the threshold.
 pub fn run(args: &RenderArgs, terminal: Terminal) -> Result<()> {
     // Errors in the options are reported before the bake.
     FileKind::of(&args.output)?;

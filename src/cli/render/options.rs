@@ -30,12 +30,13 @@ pub struct RenderArgs {
     /// Camera of the scene, by name or by index from 0 [default: the first camera, or an overview if there is none].
     #[arg(long, value_name = "NAME|INDEX")]
     pub camera: Option<String>,
-    /// Position of the camera (metres), viewing direction and vertical field of view (degrees), as the viewer copies them.
+    /// Position of the camera (metres), viewing direction and vertical field of view (degrees), as the viewer copies
+    /// them.
     #[arg(long, value_name = "X,Y,Z,DX,DY,DZ,FOV", value_parser = camera_pose, allow_hyphen_values = true,
           conflicts_with = "camera")]
     pub eye: Option<Camera>,
-    /// Draws the view from a patch instead: the unfolded hemicube at this position (metres) with this normal. A second picture,
-    /// IMG-items.png, has a colour for each element.
+    /// Draws the view from a patch instead: the unfolded hemicube at this position (metres) with this normal. A second
+    /// picture, IMG-items.png, has a colour for each element.
     #[arg(long, value_name = "X,Y,Z,NX,NY,NZ", value_parser = patch_viewpoint, allow_hyphen_values = true,
           conflicts_with_all = ["camera", "eye", "renderer", "reference"])]
     pub hemicube_at: Option<MeasuringPoint>,
@@ -51,8 +52,8 @@ pub struct RenderArgs {
     /// Options of traced pictures.
     #[command(flatten)]
     pub rays: RayOptions,
-    /// Compares the picture with this one (.png or .exr), writes the visible difference to IMG-difference.png, and fails if they
-    /// differ by more than --threshold.
+    /// Compares the picture with this one (.png or .exr), writes the visible difference to IMG-difference.png, and
+    /// fails if they differ by more than --threshold.
     #[arg(long, value_name = "IMG")]
     pub reference: Option<PathBuf>,
     /// Largest relative root mean square error against the reference.

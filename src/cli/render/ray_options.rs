@@ -14,8 +14,8 @@ pub struct RayOptions {
     /// With path: the largest number of reflections that a path follows [default: unlimited].
     #[arg(long, value_name = "K")]
     pub max_bounces: Option<u32>,
-    /// With two-pass: the number of rays a sample that gather indirect light at the first surface from the light stored at the
-    /// next one; 0 takes the light stored at the first surface.
+    /// With two-pass: the number of rays a sample that gather indirect light at the first surface from the light stored
+    /// at the next one; 0 takes the light stored at the first surface.
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u32).range(0..=1 << 16))]
     pub final_gather: u32,
 }

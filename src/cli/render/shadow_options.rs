@@ -7,27 +7,27 @@ use crate::cli::value::radius;
 use crate::render::shadow::{DebugView, ShadowDebug};
 use crate::render::{ShadowSettings, ShadowTechnique};
 
-/// Which shadows direct light throws.
+/// Shadows of direct light.
 #[derive(Args, Clone, Debug)]
 pub struct ShadowOptions {
-    /// Draws direct light from the lights themselves, with these shadows, on top of the indirect light of the bake (or
-    /// of ambient light, or of none with --lighting direct, which then need no bake).
+    /// Adds direct light in real time, with shadows by this technique, to the indirect light of the bake; with
+    /// --lighting ambient or direct no bake is needed.
     #[arg(long, value_enum, value_name = "TECHNIQUE")]
     pub shadows: Option<TechniqueName>,
-    /// Points on each lamp that has a size from which light comes, 1 to 256; many make soft shadows.
+    /// Number of light samples on each lamp that has a size, 1 to 256; many make soft shadows.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=256))]
     pub light_samples: u32,
-    /// Size that point and spot lights are given, metres; with many --light-samples their shadows become soft.
+    /// Radius of point and spot lights, metres; with many --light-samples their shadows become soft.
     #[arg(long, value_name = "M", default_value = "0", value_parser = radius)]
     pub light_radius: f32,
-    /// Draws over the picture what the shadows of one light work with.
+    /// Draws a debug view of the shadows of one light sample over the picture.
     #[arg(long, value_enum, value_name = "VIEW", conflicts_with_all = ["compare_shadows", "reference"])]
     pub shadow_debug: Option<DebugName>,
-    /// Which light sample --shadow-debug shows, from 0.
+    /// Index of the light sample that --shadow-debug shows.
     #[arg(long, value_name = "N", default_value = "0", requires = "shadow_debug")]
     pub shadow_debug_light: usize,
-    /// Draws no light but where technique A finds other shadows than technique B, and prints how many pixels these are,
-    /// more than one pixel away from an edge of a shadow (of B, or of the ray-traced one).
+    /// Draws where the shadows of techniques A and B differ, and prints the share of these pixels; pixels next to a
+    /// shadow edge (of the ray-traced technique, else of B) do not count.
     #[arg(long, value_name = "A,B", value_enum, value_delimiter = ',', num_args = 1, conflicts_with_all = ["shadows", "reference"])]
     pub compare_shadows: Option<Vec<TechniqueName>>,
 }
@@ -90,22 +90,22 @@ impl TechniqueName {
 }
 
 impl ShadowOptions {
-    /// Settings of the shadows that are to be drawn.
+    /// Settings of the shadows; `None` without --shadows.
     #[must_use]
     pub fn settings(&self) -> Option<ShadowSettings> {
         self.shadows.map(|name| self.settings_of(name))
     }
 
-    /// The debug view that is to be drawn.
+    /// The debug view, if one is wanted.
     #[must_use]
     pub fn debug(&self) -> Option<ShadowDebug> {
         self.shadow_debug.map(|name| ShadowDebug { view: name.view(), light: self.shadow_debug_light })
     }
 
-    /// The two techniques that are to be compared.
+    /// Settings of the two techniques to compare; `None` without --compare-shadows.
     ///
     /// # Errors
-    /// There are not two.
+    /// Returns an error if there are not two techniques.
     pub fn compared(&self) -> Result<Option<[ShadowSettings; 2]>> {
         match self.compare_shadows.as_deref() {
             None => Ok(None),

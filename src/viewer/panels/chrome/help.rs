@@ -4,10 +4,10 @@ use egui::{Align2, Grid, Id, Ui};
 
 use super::theme;
 
-/// A subject with its keys and what they do.
+/// A heading with its keys and what they do.
 type Subject = (&'static str, &'static [(&'static str, &'static str)]);
 
-/// All keys; so many subjects in each column.
+/// All keys.
 const SHEET: [Subject; 5] = [
     (
         "Moving",
@@ -27,19 +27,19 @@ const SHEET: [Subject; 5] = [
         "Looking",
         &[
             ("Drag", "look around with either button"),
-            ("Click", "keep the mouse, Esc gives it back"),
-            ("Alt Drag", "circle round the point under the mouse"),
+            ("Click", "capture the mouse, Esc releases it"),
+            ("Alt Drag", "orbit the point under the mouse"),
             ("Arrows", "look around without a mouse"),
         ],
     ),
     (
-        "Asking",
+        "Measuring",
         &[
             ("M", "lux meter: a click measures a point"),
             ("G", "grid: a click measures a flat surface"),
-            ("N", "a click shows what that patch sees"),
+            ("N", "a click shows the view from that patch"),
             ("L", "a click selects an object"),
-            ("Enter", "keep the reading"),
+            ("Enter", "pin the reading"),
             ("Esc", "back to looking around"),
         ],
     ),
@@ -52,7 +52,7 @@ const SHEET: [Subject; 5] = [
             ("V", "lit, light only, lux, reflectance, normals"),
             ("J K", "direct, indirect light"),
             ("R", "trace rays while the camera is still"),
-            ("B", "bake, or end the bake"),
+            ("B", "start a bake, or end it"),
         ],
     ),
     (
@@ -64,7 +64,7 @@ const SHEET: [Subject; 5] = [
             ("H F1", "this sheet"),
             ("O", "choose a file; or drop one"),
             ("F5", "read the file and the shaders again"),
-            ("Ctrl Q", "leave"),
+            ("Ctrl Q", "quit"),
         ],
     ),
 ];

@@ -1,4 +1,4 @@
-//! What the program has to say: a notice that goes away by itself, or trouble that stays until it is read.
+//! Messages: a notice that disappears after some seconds, and an error that stays until it is closed.
 
 use std::time::{Duration, Instant};
 
@@ -8,28 +8,28 @@ use super::theme;
 use crate::viewer::action::Action;
 use crate::viewer::session::light_state::LightState;
 
-/// How long a notice stays.
+/// How long a notice is shown.
 const NOTICE_TIME: Duration = Duration::from_secs(4);
 
-/// A line that goes away by itself.
+/// A line of text that disappears after some seconds.
 pub struct Notice {
     text: String,
     until: Instant,
 }
 
 impl Notice {
-    /// A notice that begins now.
+    /// A notice that is shown from now on.
     pub fn new(text: impl Into<String>) -> Self {
         Self { text: text.into(), until: Instant::now() + NOTICE_TIME }
     }
 }
 
-/// Something that did not work.
+/// An error that is shown until it is closed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Trouble {
-    /// What did not work.
+    /// What failed.
     pub title: String,
-    /// Why, in full.
+    /// The full message.
     pub text: String,
     /// The text quotes code: it is shown in a font of even width, and no other file is offered.
     pub is_code: bool,
@@ -47,7 +47,7 @@ impl Trouble {
     }
 }
 
-/// Fills the place of the picture while there is none.
+/// Fills the area of the picture while no scene is open.
 pub fn empty_ui(ctx: &egui::Context, free: Rect, light: &LightState) {
     let text = match light {
         LightState::Working { .. } => "Opening ...",

@@ -1,4 +1,4 @@
-//! The status line: where one is, how one moves, how fast frames are.
+//! The status line: position, speed, work in the background, frame rate.
 
 use egui::{Align, Layout, RichText, Ui};
 

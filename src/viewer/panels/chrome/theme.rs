@@ -1,13 +1,13 @@
-//! Colours and spacing of the panels: dark slate, so that the picture stays the brightest thing, and lamp light as the
-//! one accent.
+//! Colours and spacing of the panels: dark grey, so that the picture is the brightest area, with one warm accent
+//! colour.
 
 use egui::{Color32, CornerRadius, Frame, Margin, RichText, Stroke, Theme, Visuals};
 
-/// The accent: warm lamp light.
+/// The accent colour.
 pub const ACCENT: Color32 = Color32::from_rgb(255, 190, 92);
-/// Something went wrong.
+/// Colour of errors.
 pub const ALARM: Color32 = Color32::from_rgb(255, 118, 104);
-/// Something wants attention.
+/// Colour of warnings.
 pub const WARNING: Color32 = Color32::from_rgb(240, 190, 80);
 
 const PANEL: Color32 = Color32::from_rgb(21, 23, 27);
@@ -16,7 +16,7 @@ const STRONG_TEXT: Color32 = Color32::from_gray(245);
 const WEAK_TEXT: Color32 = Color32::from_gray(150);
 const LINE: Color32 = Color32::from_gray(50);
 
-/// Dresses the whole context.
+/// Applies the theme to the whole context.
 pub fn apply(ctx: &egui::Context) {
     ctx.set_theme(Theme::Dark);
     ctx.set_visuals_of(Theme::Dark, visuals());
@@ -24,13 +24,13 @@ pub fn apply(ctx: &egui::Context) {
         style.spacing.item_spacing = egui::vec2(8.0, 5.0);
         style.spacing.button_padding = egui::vec2(9.0, 4.0);
         style.spacing.slider_rail_height = 4.0;
-        // Numbers at the right edge stay clear of the bar.
+        // Keeps numbers at the right edge clear of the scroll bar.
         style.spacing.scroll =
             egui::style::ScrollStyle { floating_allocated_width: 8.0, ..egui::style::ScrollStyle::thin() };
-        // Motion that asks for frames costs the bake; folding at once is as good.
+        // An animation would request frames and slow down the bake.
         style.animation_time = 0.0;
     });
-    // Ctrl + and - belong to the desktop's scale, not to ours.
+    // The scale of the desktop applies; Ctrl + and - do not change it.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
 }
 
@@ -76,7 +76,7 @@ pub fn title(text: &str) -> RichText {
     RichText::new(text).strong().color(STRONG_TEXT).size(14.5)
 }
 
-/// A key as it is printed on the keyboard.
+/// The name of a key.
 #[must_use]
 pub fn key(text: &str) -> RichText {
     RichText::new(text).monospace().color(ACCENT)

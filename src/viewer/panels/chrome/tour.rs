@@ -1,4 +1,4 @@
-//! The first start explains itself in three lines.
+//! Three lines of introduction at the first start.
 
 use egui::{Align2, Area, Frame, Id, Rect, RichText};
 
@@ -6,7 +6,7 @@ use super::theme;
 
 const LINES: [(&str, &str); 3] = [
     ("W A S D", "walk; drag the mouse to look around"),
-    ("M", "then click: how bright is it there, and where does the light come from"),
+    ("M", "then click: measures how bright it is there and where the light comes from"),
     ("H", "shows all keys; everything else is in the panel at the right"),
 ];
 

@@ -1,4 +1,4 @@
-//! Small things that several panels are made of.
+//! Widgets and number formats that several panels share.
 
 use std::collections::BTreeMap;
 use std::time::Duration;
@@ -7,7 +7,7 @@ use egui::{CollapsingHeader, Ui};
 
 use super::theme;
 
-/// A section that folds; `sections` remembers whether it is open.
+/// A section that folds; `sections` stores by title whether it is open.
 pub fn section(
     ui: &mut Ui,
     sections: &mut BTreeMap<String, bool>,
@@ -27,7 +27,7 @@ pub fn section(
     }
 }
 
-/// A name at the left, a value at the right.
+/// A row with a name at the left and a value at the right.
 pub fn row(ui: &mut Ui, name: &str, value: impl Into<egui::WidgetText>) {
     ui.horizontal(|ui| {
         ui.label(name);
@@ -37,24 +37,24 @@ pub fn row(ui: &mut Ui, name: &str, value: impl Into<egui::WidgetText>) {
     });
 }
 
-/// Gives a widget without a text of its own the name that screen readers say.
+/// Gives a widget without text the name that screen readers read out.
 pub fn named(response: &egui::Response, role: egui::Role, name: impl ToString) {
     response.widget_info(|| egui::WidgetInfo::labeled(role, response.enabled(), name.to_string()));
 }
 
-/// A faint line of text that wraps.
+/// Weak text that wraps.
 pub fn hint(ui: &mut Ui, text: impl Into<String>) {
     ui.add(egui::Label::new(egui::RichText::new(text).weak()).wrap());
 }
 
-/// A button as wide as the panel; whether it was pressed.
+/// A button as wide as the panel; returns whether it was clicked.
 pub fn wide_button(ui: &mut Ui, text: &str, is_enabled: bool, hover: &str) -> bool {
     let button = egui::Button::new(text);
     let response = ui.vertical_centered_justified(|ui| ui.add_enabled(is_enabled, button)).inner;
     response.on_hover_text(hover).clicked()
 }
 
-/// A whole number with gaps between thousands.
+/// Formats a number with thin spaces between thousands.
 #[must_use]
 pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
@@ -68,7 +68,7 @@ pub fn grouped(number: usize) -> String {
     text
 }
 
-/// Lux in at most four figures.
+/// Formats an illuminance in lux with about three significant digits.
 #[must_use]
 pub fn lux(value: f32) -> String {
     match value.abs() {
@@ -78,13 +78,13 @@ pub fn lux(value: f32) -> String {
     }
 }
 
-/// Metres, or centimetres where there is less than one.
+/// Formats a length in metres, or in centimetres below one metre.
 #[must_use]
 pub fn metres(length: f32) -> String {
     if length < 1.0 { format!("{:.0} cm", (100.0 * length).max(1.0)) } else { format!("{length:.1} m") }
 }
 
-/// A duration as `12.3 s` or `2:05 min`.
+/// Formats a duration as `12.3 s` or `2:05 min`.
 #[must_use]
 pub fn clock(elapsed: Duration) -> String {
     let seconds = elapsed.as_secs();
@@ -100,20 +100,20 @@ mod tests {
     use super::*;
 
     #[test]
-    fn thousands_are_set_apart() {
+    fn thousands_are_separated() {
         assert_eq!(grouped(0), "0");
         assert_eq!(grouped(999), "999");
         assert_eq!(grouped(1_234_567), "1\u{2009}234\u{2009}567");
     }
 
     #[test]
-    fn lux_and_lengths_read_like_an_instrument() {
+    fn lux_and_lengths_are_rounded_for_reading() {
         assert_eq!((lux(1234.4), lux(56.78), lux(0.456)), ("1\u{2009}234".into(), "56.8".into(), "0.46".into()));
         assert_eq!((metres(0.123), metres(2.34)), ("12 cm".into(), "2.3 m".into()));
     }
 
     #[test]
-    fn durations_read_like_a_clock() {
+    fn durations_are_in_seconds_or_minutes() {
         assert_eq!(clock(Duration::from_millis(12_340)), "12.3 s");
         assert_eq!(clock(Duration::from_secs(125)), "2:05 min");
     }

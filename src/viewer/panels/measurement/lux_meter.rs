@@ -1,4 +1,4 @@
-//! Lux meter: the last reading, pins, a grid with its numbers, and the table.
+//! Lux meter: the last reading, pinned readings, a grid with its statistics, and the table to write.
 
 use egui::{CollapsingHeader, Color32, DragValue, Grid, RichText, Role, Ui};
 use glam::Vec3;
@@ -28,7 +28,7 @@ pub fn lux_meter_ui(
     }
     if let Some(reading) = facts.measurement.last {
         reading_ui(ui, reading, dials);
-        if wide_button(ui, "Keep this reading", true, "Pins it to its place (Enter)") {
+        if wide_button(ui, "Keep this reading", true, "Pins it to its position (Enter)") {
             actions.push(Action::PinReading);
         }
     }
@@ -43,7 +43,7 @@ pub fn lux_meter_ui(
             if ui.button("Write a table").on_hover_text(hint).clicked() {
                 actions.push(Action::WriteReadings);
             }
-            if ui.button("Clear").on_hover_text("Drops all readings and the grid").clicked() {
+            if ui.button("Clear").on_hover_text("Discards all readings and the grid").clicked() {
                 actions.push(Action::ClearReadings);
             }
         });
@@ -53,7 +53,7 @@ pub fn lux_meter_ui(
 fn tool_ui(ui: &mut Ui, tool: Tool, actions: &mut Vec<Action>) {
     match tool {
         Tool::Meter => hint(ui, "Click a surface to measure it."),
-        Tool::Grid => hint(ui, "Click a flat surface to lay a grid over it."),
+        Tool::Grid => hint(ui, "Click a flat surface to measure a grid over it."),
         _ => {
             ui.horizontal(|ui| {
                 if ui.button("Measure a point").on_hover_text("Then click a surface (M)").clicked() {
@@ -123,7 +123,7 @@ fn plan_ui(ui: &mut Ui, grid: &mut GridSettings) {
         ui.label("at");
         let height = ui.add(DragValue::new(&mut grid.height).range(0.0..=5.0).speed(0.01).suffix(" m"));
         named(&height, Role::SpinButton, "Grid height");
-        height.on_hover_text("Above the surface: 0.75 to 0.85 m is the height of a desk");
+        height.on_hover_text("Height above the surface; a desk is 0.75 to 0.85 m high");
     });
 }
 

@@ -1,4 +1,4 @@
-//! View from here: the unfolded hemicube of a patch, and its form factors as a heat map in the picture.
+//! View from a patch: its unfolded hemicube, and its form factors as a heat map in the picture.
 
 use std::sync::Arc;
 
@@ -10,11 +10,11 @@ use crate::viewer::action::Action;
 use crate::viewer::settings::tool::Tool;
 use crate::viewer::solution::patch_view::{ChosenPatchView, render_option};
 
-/// The hemicube as egui draws it.
+/// The hemicube as a texture of egui.
 #[derive(Default)]
 pub struct PatchViewPicture {
     shows_items: bool,
-    /// Of this sight, with a colour for each element or shaded.
+    /// The view that the texture shows, whether it shows a colour for each element, and the texture.
     shown: Option<(Arc<ChosenPatchView>, bool, TextureHandle)>,
 }
 
@@ -29,13 +29,13 @@ pub fn patch_view_ui(
     if !facts.bake.is_solved {
         hint(ui, "Waits for the light: it needs a finished bake.");
     } else if tool == Tool::PatchView {
-        hint(ui, "Click a surface to see what it sees.");
+        hint(ui, "Click a surface to show the view from there.");
     } else if ui.button("Choose a patch").on_hover_text("Then click a surface (N)").clicked() {
         actions.push(Action::SelectTool(Tool::PatchView));
     }
     let Some(sight) = facts.measurement.patch_view else { return };
     ui.checkbox(shows_heat, "form factors as a heat map")
-        .on_hover_text("Red elements fill most of the view per area, blue ones a thousandth of it, grey ones nothing");
+        .on_hover_text("Form factor per area of an element: red is the largest, blue a thousandth of it, grey is zero");
     ui.checkbox(&mut picture.shows_items, "a colour for each element");
     let texture = picture.texture(ui.ctx(), sight);
     let width = ui.available_width();
@@ -46,10 +46,10 @@ pub fn patch_view_ui(
 }
 
 fn buttons_ui(ui: &mut Ui, sight: &ChosenPatchView, actions: &mut Vec<Action>) {
-    if ui.button("Copy as an option").on_hover_text("For hemicube render: the same picture in a file").clicked() {
+    if ui.button("Copy as an option").on_hover_text("As an option of hemicube render, which writes the same picture to a file").clicked() {
         ui.copy_text(render_option(&sight.point));
     }
-    if ui.button("Forget it").on_hover_text("Takes the view and its heat map away").clicked() {
+    if ui.button("Forget it").on_hover_text("Closes the view and its heat map").clicked() {
         actions.push(Action::ClosePatchView);
     }
 }

@@ -1,4 +1,4 @@
-//! What stands over the picture of shadows: the divider of a split screen, names, percentages, faults that are known.
+//! Labels over a picture of shadows: the divider of a split screen, names, percentages, known faults.
 
 use egui::{Align2, Area, Color32, CursorIcon, FontId, Id, Order, Painter, Pos2, Rect, Role, Sense, Ui, pos2, vec2};
 
@@ -11,15 +11,17 @@ use crate::render::shadow::debug::count_colour;
 use crate::viewer::settings::comparison::ComparisonLayout;
 use crate::viewer::settings::light::LightSettings;
 
-/// Width of what one can take hold of, points.
+/// Width of the area in which the divider can be dragged, points.
 const GRIP: f32 = 14.0;
-/// Distance of labels from the top of the picture, and from one to the next, points.
+/// Distance of the first label from the top of the picture, points.
 const TOP: f32 = 18.0;
+/// Distance between labels, points.
 const LINE: f32 = 24.0;
-/// Too much and too little light in the heat map.
+/// Colour of pixels that only the first technique lights.
 const TOO_BRIGHT: Color32 = Color32::from_rgb(255, 96, 64);
+/// Colour of pixels that only the second technique lights.
 const TOO_DARK: Color32 = Color32::from_rgb(96, 150, 255);
-/// Counts in the legend of the stencil.
+/// Counts in the legend of the stencil view.
 const COUNTS: [u32; 5] = [1, 2, 4, 6, 8];
 
 pub fn comparison_ui(ui: &mut Ui, free: Rect, light: &mut LightSettings, facts: &Facts<'_>) {
@@ -57,11 +59,11 @@ pub fn comparison_ui(ui: &mut Ui, free: Rect, light: &mut LightSettings, facts: 
     }
 }
 
-/// The line between both halves, which can be dragged; where it is.
+/// The line between both halves, which can be dragged; returns its position, points.
 fn divider_ui(ui: &mut Ui, free: Rect, divider: &mut f32) -> f32 {
     let at = free.left() + *divider * free.width();
     let grip = Rect::from_center_size(pos2(at, free.center().y), vec2(GRIP, free.height()));
-    // An area of its own, so that the mouse does not look around while it drags.
+    // An area of its own, so that dragging does not turn the camera.
     let area = Area::new(Id::unique("divider")).order(Order::Background).fixed_pos(grip.min).constrain(false);
     let response = area.show(ui.ctx(), |ui| ui.allocate_response(grip.size(), Sense::drag())).inner;
     named(&response, Role::Slider, "Divider");
@@ -77,7 +79,7 @@ fn divider_ui(ui: &mut Ui, free: Rect, divider: &mut f32) -> f32 {
     at
 }
 
-/// What the colours of the stencil mean.
+/// The legend of the stencil view.
 fn counts_ui(painter: &Painter, centre: Pos2) {
     let width = 44.0 * COUNTS.len() as f32;
     for (index, count) in COUNTS.into_iter().enumerate() {
@@ -93,7 +95,7 @@ fn counts_ui(painter: &Painter, centre: Pos2) {
     }
 }
 
-/// Text on a dark ground, readable over any picture.
+/// Text on a dark background, readable over any picture.
 fn label(painter: &Painter, at: Pos2, anchor: Align2, text: &str, colour: Color32) {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.5), colour);
     let rect = anchor.anchor_size(at, galley.size());

@@ -7,9 +7,9 @@ use crate::render::ToneMap;
 use crate::viewer::action::Action;
 use crate::viewer::settings::light::{GroupDial, LightSettings};
 
-/// Room that a slider leaves for its number, points.
+/// Width of the number beside a slider, points.
 const NUMBER_WIDTH: f32 = 62.0;
-/// Width of a light group's name with its box, points.
+/// Width of a light group's checkbox and name, points.
 const NAME_WIDTH: f32 = 92.0;
 
 pub fn light_ui(ui: &mut Ui, light: &mut LightSettings, actions: &mut Vec<Action>) {
@@ -17,12 +17,12 @@ pub fn light_ui(ui: &mut Ui, light: &mut LightSettings, actions: &mut Vec<Action
     ui.horizontal(|ui| {
         ui.label("Tone map").on_hover_text("T switches");
         ui.selectable_value(&mut light.tone_map, ToneMap::Neutral, "Neutral")
-            .on_hover_text("True colours, highlights roll off");
-        ui.selectable_value(&mut light.tone_map, ToneMap::Linear, "Linear").on_hover_text("Cut off at white");
+            .on_hover_text("Colours stay as they are, highlights roll off");
+        ui.selectable_value(&mut light.tone_map, ToneMap::Linear, "Linear").on_hover_text("Clipped at white");
     });
     ui.horizontal(|ui| {
         ui.label("Show");
-        ui.checkbox(&mut light.direct, "direct").on_hover_text("Light straight from the lamps (J)");
+        ui.checkbox(&mut light.direct, "direct").on_hover_text("Light that arrives straight from the lamps (J)");
         ui.checkbox(&mut light.indirect, "indirect").on_hover_text("Light after at least one reflection (K)");
     });
     groups_ui(ui, &mut light.groups);
@@ -51,7 +51,10 @@ fn groups_ui(ui: &mut Ui, groups: &mut [GroupDial]) {
         ui.label("Light groups");
         let is_changed = groups.iter().any(|group| !group.is_as_baked());
         if is_changed
-            && ui.small_button("as baked").on_hover_text("All dials back to where the bake had them").clicked()
+            && ui
+                .small_button("as baked")
+                .on_hover_text("Sets all light groups back to the light of the bake")
+                .clicked()
         {
             groups.iter_mut().for_each(|group| *group = GroupDial::of(&group.name));
         }
@@ -67,12 +70,12 @@ fn group_ui(ui: &mut Ui, group: &mut GroupDial) {
     ui.allocate_ui_with_layout(egui::vec2(NAME_WIDTH, height), name, |ui| {
         ui.set_width(NAME_WIDTH);
         let name = Atom::from(group.name.as_str()).atom_shrink(true);
-        let hint = format!("Switches {}; no new bake", group.name);
+        let hint = format!("Switches {} on or off without a new bake", group.name);
         ui.add(Checkbox::new(&mut group.is_on, name)).on_hover_text(hint);
     });
     ui.add_enabled_ui(group.is_on, |ui| {
         let mut tint = group.tint.to_array();
-        let colour = ui.color_edit_button_rgb(&mut tint).on_hover_text("Colour that this light takes on");
+        let colour = ui.color_edit_button_rgb(&mut tint).on_hover_text("Colour of this light");
         named(&colour, Role::ColorWell, format!("Colour of {}", group.name));
         if colour.changed() {
             group.tint = tint.into();

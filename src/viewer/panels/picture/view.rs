@@ -1,4 +1,4 @@
-//! View: what is shown of the surfaces, the scale of false colours, the wire, and how one gets about.
+//! View: shading, the scale of false colours, wires, ray tracing at rest, and movement.
 
 use egui::{Checkbox, DragValue, Role, Ui};
 
@@ -9,7 +9,7 @@ use crate::viewer::action::Action;
 use crate::viewer::settings::light::{LightSettings, SHADINGS};
 use crate::viewer::settings::view::Wire;
 
-/// Largest illuminance of a scale, lux: twice the sun.
+/// Largest illuminance of a scale, lux: about twice that of direct sunlight.
 const MAX_LUX: f32 = 200_000.0;
 
 pub fn view_ui(
@@ -33,16 +33,16 @@ pub fn view_ui(
         ui.label("Wire");
         for (kind, label, hint) in [
             (Wire::None, "None", "No lines"),
-            (Wire::Elements, "Elements", "Edges of what receives light"),
-            (Wire::Patches, "Patches", "Edges between what shoots light"),
+            (Wire::Elements, "Elements", "Edges of the elements, which receive light"),
+            (Wire::Patches, "Patches", "Edges of the patches, which shoot light"),
         ] {
             ui.selectable_value(wire, kind, label).on_hover_text(hint);
         }
     });
     ui.checkbox(&mut light.see_through_backs, "look through backs of walls")
-        .on_hover_text("Single-sided walls hide nothing from behind");
+        .on_hover_text("Single-sided walls are invisible from behind");
     ui.add_enabled(facts.bake.is_solved, Checkbox::new(traces_stills, "trace rays while still")).on_hover_text(
-        "A still camera turns into a ray-traced picture: sharp shadows, mirrors and glass over the baked light (R)",
+        "While the camera rests, the picture is ray-traced: sharp shadows, mirrors and glass over the baked light (R)",
     );
     moving_ui(ui, facts, actions);
 }
@@ -56,30 +56,31 @@ fn scale_ui(ui: &mut Ui, scale: &mut LuxScale, facts: &Facts<'_>, actions: &mut 
         let high = ui.add(DragValue::new(&mut scale.high).range(0.0..=MAX_LUX).speed(5.0).suffix(" lx"));
         named(&high, Role::SpinButton, "Highest lux");
         let fit = ui.add_enabled(facts.bake.is_solved, egui::Button::new("Fit"));
-        if fit.on_hover_text("Spans the light of this scene").clicked() {
+        if fit.on_hover_text("Fits the scale to the light of this scene").clicked() {
             actions.push(Action::FitLuxScale);
         }
     });
     ui.horizontal(|ui| {
-        ui.checkbox(&mut scale.is_logarithmic, "logarithmic").on_hover_text("Equal ratios are equally far apart");
+        ui.checkbox(&mut scale.is_logarithmic, "logarithmic")
+            .on_hover_text("Equal ratios of illuminance have equal distances");
         let parts = ui.add(DragValue::new(&mut scale.num_parts).range(0..=20).speed(0.1));
         named(&parts, Role::SpinButton, "Parts between iso-lux lines");
         ui.label("parts between lines")
-            .on_hover_text("Lines of equal lux cut the scale into so many parts; 0 draws none");
+            .on_hover_text("Lines of equal illuminance divide the scale into this many parts; 0 draws none");
     });
 }
 
 fn moving_ui(ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         for (label, is_walking, hint) in
-            [("Walk", true, "With gravity and walls (F)"), ("Fly", false, "Through everything (F)")]
+            [("Walk", true, "With gravity and walls (F)"), ("Fly", false, "Without gravity or walls (F)")]
         {
             let is_so = facts.camera.is_walking == is_walking;
             if ui.selectable_label(is_so, label).on_hover_text(hint).clicked() && !is_so {
                 actions.push(Action::ToggleWalking);
             }
         }
-        if ui.button("Frame all").on_hover_text("The whole scene in view (Home)").clicked() {
+        if ui.button("Frame all").on_hover_text("Moves back until the whole scene is in view (Home)").clicked() {
             actions.push(Action::FrameAll);
         }
         if let Some(eye) = facts.camera.pose {
@@ -87,7 +88,7 @@ fn moving_ui(ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
             let angle =
                 ui.add(DragValue::new(&mut degrees).range(10.0..=120.0).speed(0.5).fixed_decimals(0).suffix("°"));
             named(&angle, Role::SpinButton, "Field of view");
-            if angle.on_hover_text("Field of view, top to bottom (Ctrl and wheel)").changed() {
+            if angle.on_hover_text("Vertical field of view (Ctrl and wheel)").changed() {
                 actions.push(Action::SetFieldOfView(degrees));
             }
         }

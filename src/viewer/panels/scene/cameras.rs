@@ -9,7 +9,7 @@ use crate::viewer::action::Action;
 pub fn cameras_ui(ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
     let cameras = facts.scene.open.map_or(&[][..], |scene| &scene.cameras);
     if cameras.is_empty() {
-        hint(ui, "The file brings none.");
+        hint(ui, "The file has no cameras.");
     }
     for (index, camera) in cameras.iter().enumerate() {
         let button = Button::new(camera.name.as_str()).truncate();
@@ -23,14 +23,14 @@ pub fn cameras_ui(ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
         ui.label("Bookmarks");
         for &number in &facts.camera.bookmarks {
             let button = ui.button(RichText::new(number.to_string()).monospace());
-            if button.on_hover_text(format!("Goes there (key {number})")).clicked() {
+            if button.on_hover_text(format!("Goes to this view (key {number})")).clicked() {
                 actions.push(Action::GoToBookmark(number));
             }
         }
         let free = (1..=9).find(|number| !facts.camera.bookmarks.contains(number));
         let add = ui.add_enabled(facts.scene.open.is_some() && free.is_some(), Button::new("Add"));
         if let Some(number) = free
-            && add.on_hover_text(format!("Marks this view as {number} (Ctrl {number})")).clicked()
+            && add.on_hover_text(format!("Stores this view as bookmark {number} (Ctrl {number})")).clicked()
         {
             actions.push(Action::SetBookmark(number));
         }

@@ -1,4 +1,4 @@
-//! Scene: objects, materials and lights by name; select, hide, go there.
+//! Scene: objects, materials and lights by name. Objects can be selected, hidden and visited.
 
 use egui::{CollapsingHeader, ComboBox, Role, ScrollArea, TextEdit, Ui};
 
@@ -9,10 +9,10 @@ use crate::scene::{LightKind, Scene};
 use crate::viewer::action::Action;
 use crate::viewer::settings::view::Selection;
 
-/// Height of a list that scrolls, points.
+/// Largest height of a list, points.
 const LIST_HEIGHT: f32 = 190.0;
 
-/// What a file wears where no variant is chosen.
+/// Entry for the default materials of the file.
 const NO_VARIANT: &str = "as it comes";
 
 pub fn objects_ui(ui: &mut Ui, selection: &mut Selection, facts: &Facts<'_>, actions: &mut Vec<Action>) {
@@ -31,19 +31,19 @@ pub fn objects_ui(ui: &mut Ui, selection: &mut Selection, facts: &Facts<'_>, act
     lights_ui(ui, scene, &selection.filter);
 }
 
-/// The file's material variants, where it has any.
-fn variant_ui(ui: &mut Ui, scene: &Scene, worn: Option<&str>, actions: &mut Vec<Action>) {
+/// The file's material variants, if it has any.
+fn variant_ui(ui: &mut Ui, scene: &Scene, current: Option<&str>, actions: &mut Vec<Action>) {
     if scene.variants.is_empty() {
         return;
     }
-    let mut chosen = worn;
-    ComboBox::from_label("Variant").selected_text(worn.unwrap_or(NO_VARIANT)).show_ui(ui, |ui| {
+    let mut chosen = current;
+    ComboBox::from_label("Variant").selected_text(current.unwrap_or(NO_VARIANT)).show_ui(ui, |ui| {
         ui.selectable_value(&mut chosen, None, NO_VARIANT);
         for name in &scene.variants {
             ui.selectable_value(&mut chosen, Some(name), name);
         }
     });
-    if chosen != worn {
+    if chosen != current {
         actions.push(Action::SetVariant(chosen.map(str::to_owned)));
     }
 }
@@ -79,7 +79,8 @@ fn object_ui(ui: &mut Ui, name: &str, id: InstanceId, selection: &mut Selection,
             };
         }
         let is_chosen = selection.chosen == Some(id);
-        let label = ui.selectable_label(is_chosen, name).on_hover_text("Selects it; a double click goes there");
+        let label =
+            ui.selectable_label(is_chosen, name).on_hover_text("Selects the object; a double click flies there");
         if label.clicked() {
             selection.chosen = (!is_chosen).then_some(id);
         }
@@ -129,7 +130,7 @@ mod tests {
     use super::matches;
 
     #[test]
-    fn names_are_found_whatever_their_case() {
+    fn the_filter_ignores_case() {
         assert!(matches("Table top", " table ") && matches("Table top", ""));
         assert!(!matches("Table top", "chair"));
     }

@@ -1,4 +1,4 @@
-//! Choosing a file: folders and scene files in a window of our own, and the files opened last.
+//! The dialog that opens a file, and the list of recent files.
 
 use std::path::{Path, PathBuf};
 
@@ -8,12 +8,12 @@ use super::super::chrome::widgets::{hint, named, wide_button};
 use crate::scene::builtin;
 use crate::viewer::action::Action;
 
-/// Most entries of a folder that are listed.
+/// Largest number of listed entries of a folder.
 const MAX_ENTRIES: usize = 2000;
 
-/// The user is choosing a file.
+/// The open dialog: a folder and its scene files.
 pub struct OpenDialog {
-    /// What is written in the line: a folder, or a file.
+    /// Text of the input line: a folder, or a file.
     path: String,
     folder: PathBuf,
     entries: Vec<Entry>,
@@ -25,7 +25,7 @@ struct Entry {
 }
 
 impl OpenDialog {
-    /// Begins in a folder.
+    /// A dialog that shows this folder.
     #[must_use]
     pub fn new(folder: &Path) -> Self {
         let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
@@ -71,7 +71,7 @@ pub fn open_ui(ctx: &egui::Context, dialog: &mut Option<OpenDialog>, actions: &m
     }
 }
 
-/// The file that was chosen.
+/// The contents of the dialog; returns the chosen file.
 fn dialog_ui(ui: &mut Ui, open: &mut OpenDialog) -> Option<PathBuf> {
     let line = ui.add(TextEdit::singleline(&mut open.path).desired_width(f32::INFINITY));
     named(&line, Role::TextInput, "Path");
@@ -123,8 +123,12 @@ fn list_ui(ui: &mut Ui, open: &mut OpenDialog) -> Option<PathBuf> {
 }
 
 pub fn recent_ui(ui: &mut Ui, recent: &[PathBuf], actions: &mut Vec<Action>) {
-    if wide_button(ui, "Read the file again", true, "Keeps the camera (F5); it happens by itself when the file changes")
-    {
+    if wide_button(
+        ui,
+        "Read the file again",
+        true,
+        "Keeps the camera (F5); happens automatically when the file changes",
+    ) {
         actions.push(Action::Reload);
     }
     for path in recent {
@@ -142,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn folders_come_first_and_other_files_stay_out() {
+    fn folders_come_first_and_other_files_are_not_listed() {
         let folder = tempfile::tempdir().expect("a folder");
         std::fs::create_dir(folder.path().join("rooms")).expect("made");
         for name in ["b.glb", "A.GLTF", "notes.txt", ".hidden.glb"] {

@@ -1,4 +1,4 @@
-//! Output: pictures, and the camera for the command line.
+//! Output: pictures, and the camera as an option of the command line.
 
 use egui::{ComboBox, DragValue, Role, Ui};
 
@@ -30,14 +30,15 @@ pub fn output_ui(ui: &mut Ui, picture: &mut PictureSettings, facts: &Facts<'_>, 
         ui.selectable_value(&mut picture.is_exr, true, "EXR").on_hover_text("Linear radiance, nit");
         let rays = ui.add(DragValue::new(&mut picture.num_rays).range(0..=4096).speed(0.5));
         named(&rays, Role::SpinButton, "Rays a pixel");
-        ui.label("rays a pixel").on_hover_text("Traced over the baked light; 0 draws the picture as the window does");
+        ui.label("rays a pixel")
+            .on_hover_text("Ray-traced over the baked light; 0 rasterises the picture like the window");
     });
     let can_write = facts.scene.open.is_some() && (picture.num_rays == 0 || facts.bake.is_solved);
     if facts.picture.is_writing {
-        if wide_button(ui, "Stop writing", true, "The picture is given up") {
+        if wide_button(ui, "Stop writing", true, "Cancels the picture") {
             actions.push(Action::CancelPicture);
         }
-    } else if wide_button(ui, "Write a large picture", can_write, "Into the folder that the program was started in") {
+    } else if wide_button(ui, "Write a large picture", can_write, "Into the folder in which the program was started") {
         actions.push(Action::WritePicture);
     }
     if let Some(eye) = facts.camera.pose

@@ -1,4 +1,4 @@
-//! Statistics: what is drawn, and how fast.
+//! Statistics: sizes of the scene, the device and the frame rate.
 
 use egui::Ui;
 

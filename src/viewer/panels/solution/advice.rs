@@ -1,4 +1,4 @@
-//! Advice: what the loader and the mesh doctor found, each with what to do, and where it is.
+//! Advice: what the loader and the mesh doctor found, the remedy, and where it is.
 
 use egui::Ui;
 
@@ -13,7 +13,7 @@ pub fn advice_ui(ui: &mut Ui, advice: &[Advice], shown: Option<AdviceLocation>, 
         hint(ui, "Nothing to complain about.");
     }
     for (index, Advice { text, locations }) in advice.iter().enumerate() {
-        // What was found stands before the first semicolon, what to do after it.
+        // The finding and its remedy are separated by a semicolon.
         let (what, remedy) = text.split_once("; ").unwrap_or((text, ""));
         ui.add(egui::Label::new(egui::RichText::new(what).color(theme::WARNING)).wrap());
         if !remedy.is_empty() {
@@ -23,7 +23,7 @@ pub fn advice_ui(ui: &mut Ui, advice: &[Advice], shown: Option<AdviceLocation>, 
             ui.horizontal(|ui| {
                 let shown = shown.filter(|shown| shown.advice == index);
                 let text = if shown.is_some() { "Show the next" } else { "Show where" };
-                if ui.small_button(text).on_hover_text("Marks it and flies there; Esc ends it").clicked() {
+                if ui.small_button(text).on_hover_text("Marks the location and flies there; Esc removes the mark").clicked() {
                     actions.push(Action::ShowAdvice(index));
                 }
                 if let Some(AdviceLocation { location, .. }) = shown {

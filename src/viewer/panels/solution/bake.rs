@@ -1,4 +1,4 @@
-//! Bake: preset, what it means here, start, progress, cancel, and what the last bake took.
+//! Bake: preset, settings in words, start, progress, cancel, and the certificate of the last bake.
 
 use egui::{ProgressBar, RichText, Sense, Stroke, Ui, pos2, vec2};
 
@@ -12,12 +12,12 @@ use crate::patch::MeshSettings;
 use crate::viewer::action::Action;
 use crate::viewer::session::light_state::LightState;
 
-/// Height of the curve, points.
+/// Height of the curve of unshot light, points.
 const CURVE_HEIGHT: f32 = 56.0;
-/// Least share of light that the curve shows.
+/// Smallest unshot share that the curve shows.
 const CURVE_FLOOR: f32 = 1e-4;
 
-/// `is_dimmed`: what is seen has other light groups than a saved bake.
+/// `is_dimmed`: the picture shows a light group at another intensity than the bake that would be saved.
 pub fn bake_ui(ui: &mut Ui, quality: &mut Quality, is_dimmed: bool, facts: &Facts<'_>, actions: &mut Vec<Action>) {
     match &facts.bake.light {
         &LightState::Working { stage, done, elapsed, is_cancelled } => {
@@ -63,7 +63,7 @@ fn working_ui(ui: &mut Ui, stage: Stage, done: f32, is_cancelled: bool, actions:
     ui.add(ProgressBar::new(done).text(label).desired_height(20.0));
     let can_cancel = !is_cancelled && stage != Stage::Load;
     let text = if is_cancelled { "Ending ..." } else { "Cancel" };
-    if wide_button(ui, text, can_cancel, "Ends the bake and keeps the light that is solved (B)") {
+    if wide_button(ui, text, can_cancel, "Ends the bake and keeps the light solved so far (B)") {
         actions.push(Action::CancelBake);
     }
 }
@@ -72,23 +72,23 @@ fn start_ui(ui: &mut Ui, quality: &mut Quality, facts: &Facts<'_>, actions: &mut
     ui.horizontal(|ui| {
         ui.label("Quality");
         for (preset, label, hint) in [
-            (Quality::Draft, "Draft", "Coarse, in seconds"),
+            (Quality::Draft, "Draft", "Coarse, takes seconds"),
             (Quality::Medium, "Medium", "Good for walking"),
-            (Quality::High, "High", "Fine shadows, takes its time"),
+            (Quality::High, "High", "Fine shadows, takes minutes"),
         ] {
             ui.selectable_value(quality, preset, label).on_hover_text(hint);
         }
     });
     if let Some((settings, sizes)) = &facts.bake.next {
-        hint(ui, in_words(settings, sizes));
+        hint(ui, describe(settings, sizes));
     }
-    if wide_button(ui, "Bake", facts.scene.open.is_some(), "Solves the light anew (B)") {
+    if wide_button(ui, "Bake", facts.scene.open.is_some(), "Solves the light again (B)") {
         actions.push(Action::Bake);
     }
 }
 
-/// What settings mean on the open scene.
-fn in_words(settings: &BakeSettings, sizes: &MeshSettings) -> String {
+/// Describes the settings of a bake of the open scene.
+fn describe(settings: &BakeSettings, sizes: &MeshSettings) -> String {
     format!(
         "Elements of at most {}, patches of about {}. Shoots until {:.2} % of the reflected light is left, then gathers with \
          {} rays or hemicubes of {} pixels; penumbrae take {} rays.",
@@ -101,7 +101,7 @@ fn in_words(settings: &BakeSettings, sizes: &MeshSettings) -> String {
     )
 }
 
-/// Share of unshot light over time, on a logarithmic scale.
+/// The unshot share over time, on a logarithmic scale.
 fn curve_ui(ui: &mut Ui, curve: &[[f32; 2]]) {
     let (response, painter) = ui.allocate_painter(vec2(ui.available_width(), CURVE_HEIGHT), Sense::hover());
     let frame = response.rect.shrink(2.0);
@@ -121,7 +121,7 @@ fn curve_ui(ui: &mut Ui, curve: &[[f32; 2]]) {
         painter.hline(frame.x_range(), y, Stroke::new(1.0, egui::Color32::from_gray(45)));
     }
     painter.line(line, Stroke::new(1.5, theme::ACCENT));
-    response.on_hover_text("Unshot light over time; lines at 10 %, 1 % and 0.1 %");
+    response.on_hover_text("Unshot share of the light over time; lines at 10 %, 1 % and 0.1 %");
 }
 
 #[cfg(test)]
@@ -129,11 +129,11 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_words_carry_the_numbers() {
+    fn the_description_contains_the_numbers() {
         let sizes = MeshSettings { element_size: 0.12, patch_size: 1.4 };
-        let words = in_words(&BakeSettings::preset(Quality::Medium), &sizes);
+        let text = describe(&BakeSettings::preset(Quality::Medium), &sizes);
         for part in ["12 cm", "1.4 m", "0.10 %", "64 pixels"] {
-            assert!(words.contains(part), "{part} in {words}");
+            assert!(text.contains(part), "{part} in {text}");
         }
     }
 }

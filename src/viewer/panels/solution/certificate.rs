@@ -1,4 +1,4 @@
-//! The certificate of a bake: where the light went, how closed and how reciprocal the form factors are, what it took.
+//! The certificate of a bake: the balance of luminous flux, the quality of the form factors, and the work done.
 
 use egui::{CollapsingHeader, Ui};
 

@@ -1,4 +1,4 @@
-//! Time machine: steps through the recorded bake.
+//! Time machine: steps through a recorded bake.
 
 use egui::{Slider, Ui};
 
@@ -15,13 +15,13 @@ pub fn time_machine_ui(ui: &mut Ui, replay: &mut ReplaySettings, facts: &Facts<'
     };
     let last = recording.moments.len() - 1;
     replay.moment = replay.moment.min(last);
-    ui.checkbox(&mut replay.is_on, "show the bake as it was").on_hover_text("In place of the finished light");
+    ui.checkbox(&mut replay.is_on, "show the bake as it was").on_hover_text("Replaces the finished light");
     ui.add_enabled_ui(replay.is_on, |ui| {
         ui.horizontal(|ui| {
             for (label, hint, to) in [
                 ("|<", "Direct light alone", 0),
                 ("<", "One step back", replay.moment.saturating_sub(1)),
-                (">", "One step on", (replay.moment + 1).min(last)),
+                (">", "One step forward", (replay.moment + 1).min(last)),
                 (">|", "The end", last),
             ] {
                 if ui.button(label).on_hover_text(hint).clicked() {
@@ -29,7 +29,7 @@ pub fn time_machine_ui(ui: &mut Ui, replay: &mut ReplaySettings, facts: &Facts<'
                 }
             }
             ui.checkbox(&mut replay.with_ambient, "ambient estimate")
-                .on_hover_text("What is unshot, spread evenly over all surfaces");
+                .on_hover_text("Adds the unshot light, spread evenly over all surfaces");
         });
         ui.spacing_mut().slider_width = ui.available_width() - 60.0;
         ui.add(Slider::new(&mut replay.moment, 0..=last).show_value(false).text("time"));
@@ -45,13 +45,13 @@ fn record_ui(ui: &mut Ui, facts: &Facts<'_>, actions: &mut Vec<Action>) {
     match facts.bake.light {
         LightState::Baked { .. } if facts.bake.is_recording => {
             hint(ui, "Shooting once more, patch by patch ...");
-            if wide_button(ui, "Stop recording", true, "Forgets what is recorded") {
+            if wide_button(ui, "Stop recording", true, "Discards the recording") {
                 actions.push(Action::ToggleRecording);
             }
         }
         LightState::Baked { .. } => {
             hint(ui, "Shoots once more, a patch at a time, and keeps the light of each step.");
-            if wide_button(ui, "Record the bake", true, "Then step through it, forwards and back") {
+            if wide_button(ui, "Record the bake", true, "Then you can step through it, forwards and back") {
                 actions.push(Action::ToggleRecording);
             }
         }

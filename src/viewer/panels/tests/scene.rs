@@ -1,4 +1,4 @@
-//! The list of what is in the scene.
+//! Tests of the section Scene.
 
 use super::*;
 
@@ -11,13 +11,13 @@ fn shop() -> &'static Scene {
 #[test]
 fn a_variant_of_the_file_is_chosen_from_its_list() {
     let facts = Facts { scene: SceneFacts { open: Some(shop()), variant: Some("oak"), ..baked().scene }, ..baked() };
-    let mut desk = desk(facts);
-    click(&mut desk, "Place");
-    assert!(click(&mut desk, "Variant").is_empty());
-    assert_eq!(click(&mut desk, "walnut"), [Action::SetVariant(Some("walnut".to_owned()))]);
-    click(&mut desk, "Variant");
-    assert_eq!(click(&mut desk, "as it comes"), [Action::SetVariant(None)]);
-    let mut without = super::desk(baked());
+    let mut window = window(facts);
+    click(&mut window, "Place");
+    assert!(click(&mut window, "Variant").is_empty());
+    assert_eq!(click(&mut window, "walnut"), [Action::SetVariant(Some("walnut".to_owned()))]);
+    click(&mut window, "Variant");
+    assert_eq!(click(&mut window, "as it comes"), [Action::SetVariant(None)]);
+    let mut without = super::window(baked());
     click(&mut without, "Place");
-    assert!(without.query_by_label("Variant").is_none(), "a choice of nothing");
+    assert!(without.query_by_label("Variant").is_none(), "a file without variants has no list of them");
 }

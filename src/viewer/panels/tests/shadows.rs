@@ -1,10 +1,10 @@
-//! The section about shadows, and what stands over their picture.
+//! Tests of the section Shadows and of the labels over its picture.
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 
 use super::super::*;
-use super::{Desk, baked, click, desk};
+use super::{Fixture, baked, click, window};
 use crate::base::ids::InstanceId;
 use crate::render::ShadowTechnique;
 use crate::render::shadow::DebugView;
@@ -12,71 +12,71 @@ use crate::viewer::action::Action;
 use crate::viewer::settings::comparison::ComparisonLayout;
 use crate::viewer::settings::tool::Tool;
 
-fn live(facts: Facts<'static>) -> Harness<'static, Desk> {
-    let mut desk = desk(facts);
-    desk.state_mut().panels.light.is_real_time = true;
-    desk.run_steps(3);
-    desk
+fn live(facts: Facts<'static>) -> Harness<'static, Fixture> {
+    let mut window = window(facts);
+    window.state_mut().panels.light.is_real_time = true;
+    window.run_steps(3);
+    window
 }
 
-/// Chooses `entry` of the list that is called `list`.
-fn choose(desk: &mut Harness<'static, Desk>, list: &str, entry: &str) {
-    click(desk, list);
-    // The list itself may show the same words.
-    desk.get_all_by_label(entry).last().expect("an entry").click();
-    desk.run_steps(3);
+/// Chooses `entry` of the combo box `list`.
+fn choose(window: &mut Harness<'static, Fixture>, list: &str, entry: &str) {
+    click(window, list);
+    // The combo box may show the same text.
+    window.get_all_by_label(entry).last().expect("an entry").click();
+    window.run_steps(3);
 }
 
 #[test]
-fn shadows_are_compared_and_looked_into() {
-    let mut desk = live(Facts { shadows: ShadowFacts { num_light_samples: 7, ..ShadowFacts::default() }, ..baked() });
-    choose(&mut desk, "Compare with", "Ray-traced");
-    let compared = desk.state().panels.light.compared_shadows().expect("compared shadows");
+fn shadows_are_compared_and_debugged() {
+    let mut window = live(Facts { shadows: ShadowFacts { num_light_samples: 7, ..ShadowFacts::default() }, ..baked() });
+    choose(&mut window, "Compare with", "Ray-traced");
+    let compared = window.state().panels.light.compared_shadows().expect("compared shadows");
     assert_eq!(compared.settings.technique, ShadowTechnique::Raytraced);
-    click(&mut desk, "Difference");
-    assert_eq!(desk.state().panels.light.comparison_layout, ComparisonLayout::Difference);
-    choose(&mut desk, "Look into", "Stencil counts");
-    let debug = desk.state().panels.light.render_settings(true).shadow_debug.expect("a debug view");
+    click(&mut window, "Difference");
+    assert_eq!(window.state().panels.light.comparison_layout, ComparisonLayout::Difference);
+    choose(&mut window, "Look into", "Stencil counts");
+    let debug = window.state().panels.light.render_settings(true).shadow_debug.expect("a debug view");
     assert_eq!((debug.view, debug.light), (DebugView::StencilCounts, 0));
-    assert!(desk.query_by_label("Light that is shown").is_some() && desk.query_by_label("of 7").is_some());
+    assert!(window.query_by_label("Light that is shown").is_some() && window.query_by_label("of 7").is_some());
     for name in ["points a lamp", "radius of lamps"] {
-        assert!(desk.query_all_by_label(name).next().is_some(), "{name}");
+        assert!(window.query_all_by_label(name).next().is_some(), "{name}");
     }
 }
 
 #[test]
 fn the_divider_of_a_split_screen_is_dragged() {
-    let mut desk = live(baked());
-    desk.state_mut().panels.light.compared_technique = Some(ShadowTechnique::Map);
-    desk.run_steps(3);
-    let free = desk.state().free;
+    let mut window = live(baked());
+    window.state_mut().panels.light.compared_technique = Some(ShadowTechnique::Map);
+    window.run_steps(3);
+    let free = window.state().free;
     let at = |x: f32| egui::pos2(x, free.center().y);
-    assert!(desk.query_by_label("Divider").is_some());
-    desk.drag_at(at(free.center().x));
-    desk.run_steps(1);
-    desk.hover_at(at(free.left() + 0.25 * free.width()));
-    desk.run_steps(1);
-    desk.drop_at(at(free.left() + 0.25 * free.width()));
-    desk.run_steps(2);
-    let divider = desk.state().panels.light.divider;
+    assert!(window.query_by_label("Divider").is_some());
+    window.drag_at(at(free.center().x));
+    window.run_steps(1);
+    window.hover_at(at(free.left() + 0.25 * free.width()));
+    window.run_steps(1);
+    window.drop_at(at(free.left() + 0.25 * free.width()));
+    window.run_steps(2);
+    let divider = window.state().panels.light.divider;
     assert!((divider - 0.25).abs() < 0.02, "{divider}");
 }
 
 #[test]
 fn planes_and_casters_are_chosen_by_clicking() {
-    let mut desk = live(baked());
-    desk.state_mut().panels.light.shadows.technique = ShadowTechnique::Planar;
-    desk.run_steps(3);
-    assert_eq!(click(&mut desk, "Choose planes"), [Action::SelectTool(Tool::Receiver)]);
-    assert_eq!(click(&mut desk, "Choose casters"), [Action::SelectTool(Tool::Caster)]);
-    desk.state_mut().panels.light.shadows.planar.casters.insert(InstanceId(1));
-    desk.run_steps(3);
-    click(&mut desk, "Choose none");
-    assert!(desk.state().panels.light.shadows.planar.casters.is_empty());
+    let mut window = live(baked());
+    window.state_mut().panels.light.shadows.technique = ShadowTechnique::Planar;
+    window.run_steps(3);
+    assert_eq!(click(&mut window, "Choose planes"), [Action::SelectTool(Tool::Receiver)]);
+    assert_eq!(click(&mut window, "Choose casters"), [Action::SelectTool(Tool::Caster)]);
+    window.state_mut().panels.light.shadows.planar.casters.insert(InstanceId(1));
+    window.run_steps(3);
+    click(&mut window, "Choose none");
+    assert!(window.state().panels.light.shadows.planar.casters.is_empty());
 }
 
 #[test]
-fn a_known_fault_and_the_time_of_each_pass_are_told() {
+fn a_known_fault_and_the_time_of_each_pass_are_shown() {
     let facts = Facts {
         shadows: ShadowFacts {
             fault: Some("wrong from here"),
@@ -85,8 +85,8 @@ fn a_known_fault_and_the_time_of_each_pass_are_told() {
         },
         ..baked()
     };
-    let desk = live(facts);
-    assert!(desk.query_all_by_label("wrong from here").next().is_some());
-    assert!(desk.query_by_label("depth prepass").is_some() && desk.query_by_label("1.2 ms").is_some());
-    assert!(desk.query_by_label("the device has no clock").is_some());
+    let window = live(facts);
+    assert!(window.query_all_by_label("wrong from here").next().is_some());
+    assert!(window.query_by_label("depth prepass").is_some() && window.query_by_label("1.2 ms").is_some());
+    assert!(window.query_by_label("the device has no clock").is_some());
 }
