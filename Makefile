@@ -7,10 +7,9 @@
 run: setup
 	scripts/view
 
-# Unit tests, integration tests, doctests, and each example.
+# Unit tests, integration tests and doctests.
 test: setup
 	cargo test
-	$(MAKE) examples
 
 examples: setup
 	for file in examples/*.rs; do cargo run --quiet --example $$(basename $$file .rs) || exit 1; done

@@ -6,10 +6,9 @@ use std::error::Error;
 use std::path::Path;
 
 use hemicube::base::colour::luminance;
-use hemicube::base::progress::Unwatched;
 use hemicube::glam::Vec3;
 use hemicube::scene::builtin;
-use hemicube::{BakeSettings, BakedScene, Method, Quality, bake, baked, load};
+use hemicube::{BakeSettings, BakedScene, Quality, bake, baked, load};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let scene = match std::env::args().nth(1) {
@@ -17,10 +16,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         None => builtin::cornell(),
     };
 
-    // The draft preset takes seconds. Hemispheres (rays) need no GPU; with `Gpu::headless()` the bake draws hemicubes.
-    let settings = BakeSettings { method: Some(Method::Hemisphere), ..BakeSettings::preset(Quality::Draft) };
-    let bake = bake(None, &scene, &settings, &Unwatched)?;
-    println!("{}: {} elements in {:.1} s", scene.name, bake.report.elements, bake.report.seconds.total);
+    // The draft preset takes seconds. `bake` uses the CPU; `bake::bake_with` can draw hemicubes on a GPU.
+    let bake = bake(&scene, &BakeSettings::preset(Quality::Draft))?;
+    println!("{}: {} elements", scene.name, bake.baked.scene.triangles.len());
 
     // A baked file is a standard .glb. The exposure is for programs that cannot read the stored light in lux.
     let path = std::env::temp_dir().join("hemicube-example.glb");

@@ -65,7 +65,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let tracer = Tracer::new(&scene);
     let viewpoints = Viewpoints::new(&scene);
     let lights = DirectLight::new(&scene, &mesh, &tracer, 16);
-    let direct = direct_on_elements(&mesh, &viewpoints, &lights, &tracer, 4, &Unwatched);
+    let direct = direct_on_elements(&mesh, &viewpoints, &lights, 4, &Unwatched);
 
     let solve = |source: &mut dyn FormFactorSource| -> Result<Field, FormFactorError> {
         let settings = ProgressiveSettings {

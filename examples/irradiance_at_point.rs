@@ -8,7 +8,7 @@ use hemicube::glam::Vec3;
 use hemicube::raytrace::{MeasuringPoint, PathSettings, irradiance};
 use hemicube::scene::{Light, Material};
 use hemicube::trace::Tracer;
-use hemicube::{BakeSettings, MeasureSettings, Method, Quality, SceneBuilder, bake, measure};
+use hemicube::{BakeSettings, MeasureSettings, Quality, SceneBuilder, bake, measure};
 
 /// Intensity of the lamp, candela in every direction.
 const INTENSITY: f32 = 100.0;
@@ -23,13 +23,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     builder.light(Light { group, ..Light::point(lamp, Vec3::splat(INTENSITY)) });
     let scene = builder.build();
 
-    let settings = BakeSettings { method: Some(Method::Hemisphere), ..BakeSettings::preset(Quality::Draft) };
-    let bake = bake(None, &scene, &settings, &Unwatched)?;
+    let baked = bake(&scene, &BakeSettings::preset(Quality::Draft))?.baked;
 
     // The height of a desk, one metre beside the lamp, facing up.
     let point = MeasuringPoint { position: Vec3::new(3.0, 0.75, 2.5), normal: Vec3::Y };
-    let precision = MeasureSettings::preset(Quality::Draft);
-    let measured = measure(&scene, &bake.mesh, &bake.baked, &[point], &precision, &Unwatched).ok_or("cancelled")?[0];
+    let measured = measure(&baked, &[point], &MeasureSettings::preset(Quality::Draft))?[0];
     let total = luminance(measured.total);
     println!("radiosity:    {total:.1} lx, of which {:.1} lx direct", luminance(measured.direct));
 

@@ -4,10 +4,9 @@ use std::error::Error;
 
 use hemicube::base::colour::luminance;
 use hemicube::base::ids::TriangleId;
-use hemicube::base::progress::Unwatched;
 use hemicube::glam::{Quat, Vec3};
 use hemicube::scene::{Camera, Material, area_of, normal_of};
-use hemicube::{BakeSettings, Method, Quality, SceneBuilder, bake};
+use hemicube::{BakeSettings, Quality, SceneBuilder, bake};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let mut builder = SceneBuilder::new("studio");
@@ -30,8 +29,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let scene = builder.build();
     println!("{}: {} triangles, {:.1} m2", scene.name, scene.triangles.len(), scene.area());
 
-    let settings = BakeSettings { method: Some(Method::Hemisphere), ..BakeSettings::preset(Quality::Draft) };
-    let bake = bake(None, &scene, &settings, &Unwatched)?;
+    let bake = bake(&scene, &BakeSettings::preset(Quality::Draft))?;
 
     // Triangles of the baked scene are elements; light is stored at their vertices. The mean over the floor is the mean
     // of the corners, weighted by area.

@@ -13,11 +13,10 @@
 //! ```
 //!
 //! ```
-//! use hemicube::base::progress::Unwatched;
 //! use hemicube::glam::Vec3;
 //! use hemicube::raytrace::MeasuringPoint;
 //! use hemicube::scene::{Light, Material};
-//! use hemicube::{BakeSettings, MeasureSettings, Method, Quality, SceneBuilder, bake, measure};
+//! use hemicube::{BakeSettings, MeasureSettings, Quality, SceneBuilder, bake, measure};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! // A scene: a file (`hemicube::load`), or built in code.
@@ -28,15 +27,12 @@
 //! builder.light(Light { group: lamp, ..Light::point(Vec3::ONE, Vec3::splat(10.0)) });
 //! let scene = builder.build();
 //!
-//! // Its light. Hemispheres need no GPU.
-//! let settings = BakeSettings { method: Some(Method::Hemisphere), ..BakeSettings::preset(Quality::Draft) };
-//! let bake = bake(None, &scene, &settings, &Unwatched)?;
-//! assert!(bake.report.unshot_share < 0.02);
+//! // Its light. This needs no GPU; `bake_with` draws hemicubes on one.
+//! let baked = bake(&scene, &BakeSettings::preset(Quality::Draft))?.baked;
 //!
 //! // Irradiance at the middle of the floor; 10 cd at 1 m are 10 lx of direct light.
 //! let points = [MeasuringPoint { position: Vec3::new(1.0, 0.0, 1.0), normal: Vec3::Y }];
-//! let precision = MeasureSettings::preset(Quality::Draft);
-//! let measured = measure(&scene, &bake.mesh, &bake.baked, &points, &precision, &Unwatched).ok_or("cancelled")?;
+//! let measured = measure(&baked, &points, &MeasureSettings::preset(Quality::Draft))?;
 //! assert!((measured[0].direct.x - 10.0).abs() < 0.01);
 //! assert!(measured[0].total.x > measured[0].direct.x);
 //! # Ok(())
@@ -93,8 +89,7 @@ pub mod cli;
 /// The vectors and matrices of this crate's interface.
 pub use glam;
 
-pub use bake::measure::{MeasureSettings, Measured, measure};
-pub use bake::{Bake, BakeSettings, Method, Quality, Solver, bake};
+pub use bake::{Bake, BakeSettings, MeasureSettings, Measured, Method, Quality, Solver, bake, measure};
 pub use baked::BakedScene;
 pub use form_factor::FormFactorSource;
 pub use gpu::Gpu;

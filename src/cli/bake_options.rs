@@ -1,16 +1,16 @@
 //! Options of every subcommand that may bake.
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use super::value::{hemicube_size, positive, share};
+use super::value::{hemicube_size, one_of, positive, share};
 use crate::bake::{BakeSettings, Method, Quality, Refinement, Solver};
 
 /// How to bake.
 #[derive(Args, Clone, Debug)]
 pub struct BakeOptions {
     /// Preset of all settings that are not given.
-    #[arg(long, value_enum, default_value = "medium")]
-    pub quality: QualityName,
+    #[arg(long, default_value = "medium", value_parser = one_of(Quality::ALL.map(|q| (q, q.name(), q.hint()))))]
+    pub quality: Quality,
     /// Longest edge of an element, metres [default: from the area of the scene and the preset].
     #[arg(long, value_name = "M", value_parser = positive)]
     pub element_size: Option<f32>,
@@ -23,57 +23,22 @@ pub struct BakeOptions {
     #[arg(long, value_name = "PX", value_parser = hemicube_size)]
     pub hemicube_size: Option<u32>,
     /// How form factors are computed [default: the faster one on this machine]. All methods give the same light.
-    #[arg(long, value_enum, value_name = "METHOD")]
-    pub method: Option<MethodName>,
+    #[arg(long, value_name = "METHOD", value_parser = one_of(Method::ALL.map(|m| (m, m.name(), m.hint()))))]
+    pub method: Option<Method>,
     /// How the radiosity equation is solved. All solvers give the same light.
-    #[arg(long, value_enum, value_name = "SOLVER", default_value = "progressive")]
-    pub solver: SolverName,
+    #[arg(long, value_name = "SOLVER", default_value = "progressive", value_parser = one_of(Solver::ALL.map(|s| (s, s.name(), s.hint()))))]
+    pub solver: Solver,
     /// With gathering: ends after N passes; 0 shows the lamps, 1 direct light, 2 the first reflection [default: when
     /// the light converges]. With progressive: ends after N shots a patch on average [default: 64].
     #[arg(long, value_name = "N")]
     pub passes: Option<u32>,
 }
 
-/// Presets as written on the command line.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-pub enum QualityName {
-    /// A first look.
-    Draft,
-    /// For walking through.
-    Medium,
-    /// For measuring.
-    High,
-}
-
-/// Methods as written on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum MethodName {
-    /// Item buffers drawn by the GPU.
-    Hemicube,
-    /// Rays on the CPU.
-    Hemisphere,
-}
-
-/// Solvers as written on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum SolverName {
-    /// Shooting, the greatest unshot power first.
-    Progressive,
-    /// Gathering pass after pass.
-    Gathering,
-    /// The full matrix.
-    Matrix,
-}
-
 impl BakeOptions {
     /// The settings that the options mean.
     #[must_use]
     pub fn settings(&self) -> BakeSettings {
-        let preset = BakeSettings::preset(match self.quality {
-            QualityName::Draft => Quality::Draft,
-            QualityName::Medium => Quality::Medium,
-            QualityName::High => Quality::High,
-        });
+        let preset = BakeSettings::preset(self.quality);
         BakeSettings {
             element_size: self.element_size,
             refinement: Refinement {
@@ -81,15 +46,8 @@ impl BakeOptions {
                 ..preset.refinement
             },
             hemicube_px: self.hemicube_size.unwrap_or(preset.hemicube_px),
-            method: self.method.map(|method| match method {
-                MethodName::Hemicube => Method::Hemicube,
-                MethodName::Hemisphere => Method::Hemisphere,
-            }),
-            solver: match self.solver {
-                SolverName::Progressive => Solver::Progressive,
-                SolverName::Gathering => Solver::Gathering,
-                SolverName::Matrix => Solver::Matrix,
-            },
+            method: self.method,
+            solver: self.solver,
             passes: self.passes.map(|passes| passes as usize),
             ..preset
         }

@@ -67,15 +67,13 @@ fn write_report(out: &mut String, scene: &Scene) -> fmt::Result {
 
 /// The predicted cost of a bake with each preset.
 fn forecasts(scene: &Scene) -> impl Iterator<Item = (String, String)> {
-    [("draft", Quality::Draft), ("medium", Quality::Medium), ("high", Quality::High)].into_iter().filter_map(
-        |(name, quality)| {
-            let Forecast { elements, patches, vertices, bytes } =
-                Forecast::of(scene, &BakeSettings::preset(quality)).ok()?;
-            let mib = bytes >> 20;
-            let counts = format!("{elements} elements, {patches} patches, {vertices} vertices");
-            Some((name.to_owned(), format!("{counts}, more where light changes; about {mib} MiB")))
-        },
-    )
+    Quality::ALL.into_iter().filter_map(|quality| {
+        let Forecast { elements, patches, vertices, bytes } =
+            Forecast::of(scene, &BakeSettings::preset(quality)).ok()?;
+        let mib = bytes >> 20;
+        let counts = format!("{elements} elements, {patches} patches, {vertices} vertices");
+        Some((quality.name().to_owned(), format!("{counts}, more where light changes; about {mib} MiB")))
+    })
 }
 
 fn row(out: &mut String, label: &str, value: impl fmt::Display) -> fmt::Result {

@@ -1,8 +1,21 @@
 //! Parsers of values on the command line.
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use glam::Vec3;
 
 use crate::render::Exposure;
+
+/// Parses one of the values in a table of value, name and hint. The help lists the names with their hints.
+pub fn one_of<T, const N: usize>(table: [(T, &'static str, &'static str); N]) -> impl TypedValueParser<Value = T>
+where
+    T: Copy + Send + Sync + 'static,
+{
+    let names = table.map(|(_, name, hint)| PossibleValue::new(name).help(hint));
+    PossibleValuesParser::new(names).try_map(move |text| {
+        let row = table.iter().find(|(_, name, _)| *name == text);
+        row.map(|&(value, ..)| value).ok_or_else(|| format!("{text} is not in the table"))
+    })
+}
 
 /// Parses a number above zero.
 pub fn positive(text: &str) -> Result<f32, String> {
@@ -57,6 +70,20 @@ pub fn unit_normal(normal: Vec3) -> Result<Vec3, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_value_is_found_by_its_name_in_the_table() {
+        let command = clap::Command::new("test")
+            .arg(clap::Arg::new("size").value_parser(one_of([(1, "small", ""), (2, "large", "")])));
+        let parse = |text| {
+            command.clone().try_get_matches_from(["test", text]).map(|found| found.get_one::<i32>("size").copied())
+        };
+        assert_eq!(parse("large").expect("it is in the table"), Some(2));
+        assert!(
+            parse("Large").is_err()
+                && parse("huge").expect_err("it is not").to_string().contains("[possible values: small, large]")
+        );
+    }
 
     #[test]
     fn an_exposure_is_a_number_or_auto() {

@@ -22,8 +22,8 @@ pub struct ViewArgs {
     /// How to bake a file that stores no light.
     #[command(flatten)]
     pub bake: BakeOptions,
-    /// Reads shaders from the .wgsl files in a folder and again whenever one changes; an error is shown in the window while the
-    /// last valid shaders stay in use [default in a debug build: shaders/ of the source tree].
+    /// Reads shaders from the .wgsl files in a folder and again whenever one changes; an error is shown in the window
+    /// while the last valid shaders stay in use [default in a debug build: shaders/ of the source tree].
     #[arg(long, value_name = "DIR")]
     pub shaders: Option<PathBuf>,
     /// Logs the time of each frame: seconds since it was requested, and 1 if a bake was running.

@@ -54,6 +54,13 @@ pub fn wide_button(ui: &mut Ui, text: &str, is_enabled: bool, hover: &str) -> bo
     response.on_hover_text(hover).clicked()
 }
 
+/// A name from a table with a capital first letter.
+#[must_use]
+pub fn capitalised(name: &str) -> String {
+    let mut letters = name.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// Formats a number with thin spaces between thousands.
 #[must_use]
 pub fn grouped(number: usize) -> String {

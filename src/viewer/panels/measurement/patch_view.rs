@@ -46,7 +46,11 @@ pub fn patch_view_ui(
 }
 
 fn buttons_ui(ui: &mut Ui, sight: &ChosenPatchView, actions: &mut Vec<Action>) {
-    if ui.button("Copy as an option").on_hover_text("As an option of hemicube render, which writes the same picture to a file").clicked() {
+    if ui
+        .button("Copy as an option")
+        .on_hover_text("As an option of hemicube render, which writes the same picture to a file")
+        .clicked()
+    {
         ui.copy_text(render_option(&sight.point));
     }
     if ui.button("Forget it").on_hover_text("Closes the view and its heat map").clicked() {

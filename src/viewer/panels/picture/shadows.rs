@@ -157,14 +157,18 @@ fn depth_pass_ui(ui: &mut Ui, volumes: &mut VolumeSettings) {
 
 fn depth_fail_ui(ui: &mut Ui, volumes: &mut VolumeSettings) {
     let mut is_infinite = volumes.far_plane.is_none();
-    if ui.checkbox(&mut is_infinite, "infinite projection").on_hover_text("Off: a far plane clips the volumes").changed()
+    if ui
+        .checkbox(&mut is_infinite, "infinite projection")
+        .on_hover_text("Off: a far plane clips the volumes")
+        .changed()
     {
         volumes.far_plane = (!is_infinite).then_some(FAR_PLANE);
     }
     if let Some(distance) = &mut volumes.far_plane {
         ui.add(Slider::new(distance, 1.0..=100.0).logarithmic(true).text("far plane").suffix(" m"));
     }
-    ui.checkbox(&mut volumes.joined, "volumes joined at edges").on_hover_text("Off: each triangle has a volume of its own, which is slow");
+    ui.checkbox(&mut volumes.joined, "volumes joined at edges")
+        .on_hover_text("Off: each triangle has a volume of its own, which is slow");
 }
 
 fn planar_ui(ui: &mut Ui, planar: &mut PlanarSettings, in_hand: Tool, actions: &mut Vec<Action>) {
@@ -188,8 +192,10 @@ fn planar_ui(ui: &mut Ui, planar: &mut PlanarSettings, in_hand: Tool, actions: &
         planar.receivers.clear();
         planar.casters.clear();
     }
-    ui.checkbox(&mut planar.stays_on_receiver, "shadows stay on their plane").on_hover_text("Off: shadows extend beyond their plane");
-    ui.checkbox(&mut planar.is_free_of_depth, "no fight for depth").on_hover_text("Off: shadow and plane fight for the same depth and flicker");
+    ui.checkbox(&mut planar.stays_on_receiver, "shadows stay on their plane")
+        .on_hover_text("Off: shadows extend beyond their plane");
+    ui.checkbox(&mut planar.is_free_of_depth, "no fight for depth")
+        .on_hover_text("Off: shadow and plane fight for the same depth and flicker");
     ui.checkbox(&mut planar.darkens_once, "darken once").on_hover_text("Off: overlapping shadows darken twice");
     ui.checkbox(&mut planar.clips_casters, "cut casters at the plane")
         .on_hover_text("Off: objects below the plane cast shadows upwards");

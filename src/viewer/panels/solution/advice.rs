@@ -23,7 +23,11 @@ pub fn advice_ui(ui: &mut Ui, advice: &[Advice], shown: Option<AdviceLocation>, 
             ui.horizontal(|ui| {
                 let shown = shown.filter(|shown| shown.advice == index);
                 let text = if shown.is_some() { "Show the next" } else { "Show where" };
-                if ui.small_button(text).on_hover_text("Marks the location and flies there; Esc removes the mark").clicked() {
+                if ui
+                    .small_button(text)
+                    .on_hover_text("Marks the location and flies there; Esc removes the mark")
+                    .clicked()
+                {
                     actions.push(Action::ShowAdvice(index));
                 }
                 if let Some(AdviceLocation { location, .. }) = shown {

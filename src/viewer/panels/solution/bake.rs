@@ -3,7 +3,7 @@
 use egui::{ProgressBar, RichText, Sense, Stroke, Ui, pos2, vec2};
 
 use super::super::chrome::theme;
-use super::super::chrome::widgets::{clock, grouped, hint, metres, row, wide_button};
+use super::super::chrome::widgets::{capitalised, clock, grouped, hint, metres, row, wide_button};
 use super::super::facts::Facts;
 use super::certificate::certificate_ui;
 use crate::bake::{BakeSettings, Quality};
@@ -71,12 +71,8 @@ fn working_ui(ui: &mut Ui, stage: Stage, done: f32, is_cancelled: bool, actions:
 fn start_ui(ui: &mut Ui, quality: &mut Quality, facts: &Facts<'_>, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         ui.label("Quality");
-        for (preset, label, hint) in [
-            (Quality::Draft, "Draft", "Coarse, takes seconds"),
-            (Quality::Medium, "Medium", "Good for walking"),
-            (Quality::High, "High", "Fine shadows, takes minutes"),
-        ] {
-            ui.selectable_value(quality, preset, label).on_hover_text(hint);
+        for preset in Quality::ALL {
+            ui.selectable_value(quality, preset, capitalised(preset.name())).on_hover_text(preset.hint());
         }
     });
     if let Some((settings, sizes)) = &facts.bake.next {
