@@ -18,7 +18,10 @@ use hemicube::baked::{BakedScene, VertexLight};
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::shadow::TechniqueInfo;
-use hemicube::render::{Exposure, RenderSettings, Renderer, ShadowScene, ShadowSettings, ShadowTechnique, View};
+use hemicube::render::{
+    Exposure, MeteredExposure, PictureRequest, RenderSettings, Renderer, ShadowScene, ShadowSettings, ShadowTechnique,
+    View,
+};
 use hemicube::scene::{Camera, Light, Scene, builtin, gltf};
 
 const SIZE: [u32; 2] = [1280, 720];
@@ -110,14 +113,22 @@ impl Stage {
     /// Time of the fastest frame.
     fn milliseconds(&self, gpu: &Gpu, settings: Option<&ShadowSettings>) -> f64 {
         let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, 1);
-        renderer.cast_shadows(Some(Arc::clone(&self.shadows)));
         let render_settings =
             RenderSettings { shadows: settings.cloned(), exposure: Exposure::Ev(0.0), ..RenderSettings::default() };
+        let request = PictureRequest {
+            size: SIZE,
+            scene: &self.buffers,
+            shadows: Some(&self.shadows),
+            view: self.view,
+            settings: &render_settings,
+            exposure: MeteredExposure::OfThis,
+            stopwatch: None,
+        };
         let mut best = f64::INFINITY;
         for frame in 0..=FRAMES {
             let start = Instant::now();
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
-            renderer.draw(gpu, &mut encoder, &self.target, SIZE, &self.buffers, &self.view, &render_settings);
+            renderer.draw(gpu, &mut encoder, &self.target, &request);
             gpu.queue.submit([encoder.finish()]);
             gpu.wait().expect("the device answers");
             if frame > 0 {

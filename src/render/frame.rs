@@ -1,21 +1,21 @@
 //! The frame: the passes that make one picture, in order.
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 
-use super::display::light_meter::{LightMeter, Metered};
+use super::display::light_meter::{LightMeter, MeterInput};
 use super::display::tone_map::ToneMapPass;
 use super::frame_uniform::{frame_bind_group, frame_layout};
+use super::picture_request::{MeteredExposure, PictureRequest};
 use super::shadow::debug::DebugPass;
 use super::shadow::{FrameContext, RealTimeLight, ShadowScene};
-use super::stored_light::light_tiles::TileFiller;
+use super::stored_light::light_tiles::{TileFiller, TileLight};
 use super::stored_light::weighted_light::WeightedLight;
 use super::surface::direct_source::DirectSource;
-use super::surface::pass::SurfacePass;
+use super::surface::pass::{SurfaceInput, SurfacePass};
 use super::surface::targets::SurfaceTargets;
-use super::{RenderSettings, View};
 use crate::gpu::readback::read_buffer;
-use crate::gpu::{Gpu, GpuError, Stopwatch};
+use crate::gpu::{Gpu, GpuError};
 use crate::render::scene::SceneBuffers;
 use crate::render::targets::Targets;
 use crate::scene::AlphaMode;
@@ -25,213 +25,212 @@ pub struct Renderer {
     frame_layout: wgpu::BindGroupLayout,
     weighted: WeightedLight,
     tile_filler: TileFiller,
-    /// Made when they are first needed.
+    /// Passes for the sources of direct light that have been drawn so far.
     surfaces: HashMap<DirectSource, SurfacePass>,
-    /// Made for the first picture whose direct light comes from the lights.
+    /// Created for the first picture whose direct light comes from the lights.
     live: Option<RealTimeLight>,
-    shadows: Option<Arc<ShadowScene>>,
-    /// Made when the first debug view is drawn.
+    /// Created for the first debug view.
     debug: Option<DebugPass>,
+    /// The shadows of the last picture, to notice another scene.
+    last_shadows: Weak<ShadowScene>,
     meter: LightMeter,
-    /// The meter of another renderer that sets the exposure here.
+    /// The exposure of the renderer that this one follows.
     followed: Option<wgpu::Buffer>,
-    watch: Option<Arc<Stopwatch>>,
     tone_map: ToneMapPass,
     output_format: wgpu::TextureFormat,
     samples: u32,
-    /// Those of the last pictures, the last first.
+    /// Targets of the last pictures, the last first.
     targets: Vec<Targets>,
     keeps_radiance: bool,
-    shows_last_exposure: bool,
+}
+
+/// Where a renderer takes an automatic exposure from.
+pub enum Metering<'a> {
+    /// From its own light meter.
+    Own,
+    /// From the light meter of another renderer, which both write: the exposure is that of the picture drawn last.
+    Shared(&'a Renderer),
+    /// From another renderer, which alone meters.
+    Followed(&'a Renderer),
 }
 
 impl Renderer {
     /// A renderer into textures of `output_format`, with `samples` samples a pixel (1 or 4).
     #[must_use]
     pub fn new(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32) -> Self {
+        Self::with_metering(gpu, output_format, samples, Metering::Own)
+    }
+
+    /// As [`Self::new`], with an automatic exposure from `metering`.
+    #[must_use]
+    pub fn with_metering(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32, metering: Metering<'_>) -> Self {
         let frame_layout = frame_layout(gpu);
+        let meter = match metering {
+            Metering::Shared(other) => other.meter.exposure().clone(),
+            Metering::Own | Metering::Followed(_) => LightMeter::new_exposure(gpu),
+        };
         Self {
             weighted: WeightedLight::new(gpu, &frame_layout),
             tile_filler: TileFiller::new(gpu, &frame_layout),
             surfaces: HashMap::new(),
             live: None,
-            keeps_radiance: false,
-            shows_last_exposure: false,
-            shadows: None,
             debug: None,
-            meter: LightMeter::new(gpu, &frame_layout),
-            followed: None,
-            watch: None,
+            last_shadows: Weak::new(),
+            meter: LightMeter::new(gpu, &frame_layout, meter),
+            followed: match metering {
+                Metering::Followed(other) => Some(other.meter.exposure().clone()),
+                Metering::Own | Metering::Shared(_) => None,
+            },
             tone_map: ToneMapPass::new(gpu, &frame_layout, output_format, samples),
             frame_layout,
             output_format,
             samples,
             targets: Vec::new(),
+            keeps_radiance: false,
         }
     }
 
-    /// Casters and lights of the scenes that are drawn from now on, for looks that ask for shadows.
-    pub fn cast_shadows(&mut self, shadows: Option<Arc<ShadowScene>>) {
-        let is_same = match (&self.shadows, &shadows) {
-            (Some(last), Some(next)) => Arc::ptr_eq(last, next),
-            _ => false,
-        };
-        if !is_same {
-            self.live.iter_mut().for_each(RealTimeLight::clear_scene);
-            self.debug.iter_mut().for_each(DebugPass::clear_scene);
+    /// As [`Self::new`]; [`Self::hdr`] holds the radiance of the last picture.
+    pub(super) fn keeping_radiance(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32) -> Self {
+        Self { keeps_radiance: true, ..Self::new(gpu, output_format, samples) }
+    }
+
+    /// Records part of the direct light of a picture; the next [`Self::draw`] of the same picture adds the rest.
+    pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, request: &PictureRequest<'_>) {
+        self.note_scene(request);
+        let bindings = frame_bind_group(gpu, &self.frame_layout, request.scene, &request.view, request.settings);
+        let in_view = request.scene.in_view(gpu, &request.view.cull_view(request.settings.cull_back));
+        let frame = frame_context(gpu, request, &bindings, &in_view);
+        if let (Some(settings), Some(frame)) = (&request.settings.shadows, frame) {
+            let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
+            live.draw(encoder, frame, settings);
         }
-        self.shadows = shadows;
     }
 
-    /// Pictures without a fixed exposure take that which another renderer has metered last.
-    pub fn follow_exposure(&mut self, other: &Self) {
-        self.followed = Some(other.meter.exposure().clone());
-    }
-
-    /// Both meter by one light meter: its exposure is that of the picture that either of them has drawn last.
-    pub fn share_meter(&mut self, other: &Self) {
-        self.meter.share(&other.meter);
-    }
-
-    /// Whether pictures without a fixed exposure are shown under that of the picture before, as they follow each other in a
-    /// movement: with one sample a pixel and nothing that blends, that is sooner done.
-    pub fn show_last_exposure(&mut self, shows: bool) {
-        self.shows_last_exposure = shows;
-    }
-
-    /// [`Renderer::hdr`] holds the pictures that are drawn from now on.
-    pub(super) fn keep_radiance(&mut self) {
-        self.keeps_radiance = true;
-    }
-
-    /// Times the passes of the pictures that are drawn from now on.
-    pub fn time(&mut self, watch: Option<Arc<Stopwatch>>) {
-        self.watch = watch;
-    }
-
-    /// Records part of the direct light of a picture, which the next [`Renderer::draw`] of the same goes on with.
-    pub fn add_light(
-        &mut self,
-        gpu: &Gpu,
-        encoder: &mut wgpu::CommandEncoder,
-        size: [u32; 2],
-        scene: &SceneBuffers,
-        view: &View,
-        render_settings: &RenderSettings,
-    ) {
-        let (Some(settings), Some(shadows)) = (&render_settings.shadows, &self.shadows) else { return };
-        let bindings = &frame_bind_group(gpu, &self.frame_layout, scene, view, render_settings);
-        let in_view = &scene.in_view(gpu, &view.cull_view(render_settings));
-        let stopwatch = self.watch.as_deref();
-        let frame = FrameContext { gpu, bindings, size, scene, in_view, shadows, view, render_settings, stopwatch };
-        let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
-        live.draw(encoder, frame, settings);
-    }
-
-    /// Records a picture of `scene` into the whole of `target`, which is `size` pixels wide and high.
-    #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, target, size) and what (scene, view, look)")]
+    /// Records a picture into the whole of `target`, which has the size of the request.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
-        size: [u32; 2],
-        scene: &SceneBuffers,
-        view: &View,
-        render_settings: &RenderSettings,
+        request: &PictureRequest<'_>,
     ) {
+        self.note_scene(request);
+        let &PictureRequest { size, scene, view, settings, stopwatch, .. } = request;
         let kept = self.targets.iter().position(|targets| targets.size == size);
         let targets = kept.map(|at| self.targets.remove(at)).unwrap_or_else(|| Targets::new(gpu, size, self.samples));
-        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, render_settings);
-
-        // The light of the vertices, each group as bright as wanted.
-        let stored = self.weighted.of(gpu, encoder, &frame, scene, render_settings).clone();
-        let seen = &scene.in_view(gpu, &view.cull_view(render_settings));
-        let frame_context = self.shadows.as_ref().map(|shadows| FrameContext {
-            gpu,
-            bindings: &frame,
-            size,
-            scene,
-            in_view: seen,
-            shadows,
-            view,
-            render_settings,
-            stopwatch: self.watch.as_deref(),
-        });
+        let bindings = frame_bind_group(gpu, &self.frame_layout, scene, &view, settings);
+        let in_view = &scene.in_view(gpu, &view.cull_view(settings.cull_back));
+        let frame = frame_context(gpu, request, &bindings, in_view);
         let lap =
-            |encoder: &mut wgpu::CommandEncoder, name| self.watch.iter().for_each(|watch| watch.lap(encoder, name));
-        // Light from the lights themselves, each in its shadows: their number and maps, or irradiance at the pixels.
-        let live = render_settings.shadows.as_ref().zip(frame_context).map(|(settings, frame_context)| {
+            |encoder: &mut wgpu::CommandEncoder, name| stopwatch.iter().for_each(|watch| watch.lap(encoder, name));
+
+        // Sum the light of the vertices over the light groups.
+        let stored = self.weighted.of(gpu, encoder, &bindings, scene, settings).clone();
+        // Add up direct light from the lights themselves, each in its shadows.
+        let live = settings.shadows.as_ref().zip(frame).map(|(shadows, frame)| {
             let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
-            live.draw(encoder, frame_context, settings)
+            live.draw(encoder, frame, shadows)
         });
         if live.is_none() {
             self.live.iter_mut().for_each(RealTimeLight::release_targets);
         }
-        // Light from every visible point towards the eye: displayed, or several samples a pixel and their mean.
-        let is_metered = render_settings.fixed_exposure().is_none() && self.followed.is_none();
-        let is_last = self.can_display_at_once(seen, render_settings);
+        // Draw the surfaces: display colours, or radiance for the passes that follow.
+        let is_metered = settings.fixed_exposure().is_none() && self.followed.is_none();
+        let is_last = self.can_display_at_once(in_view, request);
         let onto = match (is_last, is_metered) {
-            (true, true) => {
-                SurfaceTargets::display_and_luminance(gpu, target, self.output_format, &targets, render_settings)
-            }
-            (true, false) => SurfaceTargets::display(target, self.output_format, &targets, render_settings),
+            (true, true) => SurfaceTargets::display_and_luminance(gpu, target, self.output_format, &targets, settings),
+            (true, false) => SurfaceTargets::display(target, self.output_format, &targets, settings),
             (false, _) => SurfaceTargets::radiance(&targets),
         };
         let exposure = self.followed.as_ref().unwrap_or(self.meter.exposure());
         let source = DirectSource::of(live.as_ref());
         if let Some(tiled) = scene.tiled.as_ref().filter(|_| source.shows_tiles()) {
-            let lit_by_lights = live.is_some();
-            self.tile_filler.fill(gpu, encoder, &frame, scene, &tiled.tiles, render_settings, &stored, lit_by_lights);
+            let light = TileLight { scene, settings, weighted: &stored, lit_by_lights: live.is_some() };
+            self.tile_filler.fill(gpu, encoder, &bindings, &tiled.tiles, light);
         }
         let surface = self.surfaces.entry(source);
         let surface = surface.or_insert_with(|| SurfacePass::new(gpu, &self.frame_layout, self.samples, source));
-        surface.draw(gpu, encoder, &onto, &frame, seen, render_settings, &stored, exposure, live.as_ref());
+        let live = live.as_ref();
+        let input = SurfaceInput { bindings: &bindings, in_view, settings, stored: &stored, exposure, live };
+        surface.draw(gpu, encoder, &onto, input);
         lap(encoder, "surfaces");
-        // The exposure that suits this picture, unless one is given.
+        // Meter the exposure that suits this picture.
         if is_metered {
-            let seen = if is_last { Metered::Luminance } else { Metered::Radiance };
-            self.meter.draw(gpu, encoder, &targets, seen, &frame);
+            let input = if is_last { MeterInput::Luminance } else { MeterInput::Radiance };
+            self.meter.draw(gpu, encoder, &targets, input, &bindings);
             lap(encoder, "light meter");
         }
+        // Apply exposure, tone curve, sRGB encoding and dither.
         if !is_last {
-            // Exposure, tone curve, sRGB, dither.
-            self.tone_map.draw(gpu, encoder, &targets, &frame, exposure, target);
+            self.tone_map.draw(gpu, encoder, &targets, &bindings, exposure, target);
             lap(encoder, "tone map");
         }
-
-        // What shadows work with.
-        if let (Some(debug), Some(frame_context)) = (render_settings.shadow_debug, frame_context) {
+        // Draw what the shadow technique works with.
+        if let (Some(debug), Some(frame)) = (settings.shadow_debug, frame) {
             let pass = self.debug.get_or_insert_with(|| DebugPass::new(gpu, &self.frame_layout, self.output_format));
-            pass.draw(encoder, target, frame_context, debug);
+            pass.draw(encoder, target, frame, debug);
         }
 
-        self.shadows.iter().for_each(|shadows| shadows.drop_unused());
-        // Where a pixel has one sample, pictures of a movement may change their size back and forth.
+        request.shadows.iter().for_each(|shadows| shadows.drop_unused());
+        // With one sample a pixel, pictures of a movement may change their size back and forth.
         self.targets.insert(0, targets);
         self.targets.truncate(if self.samples == 1 { 2 } else { 1 });
     }
 
-    /// Nothing needs the radiance but the screen, and what it shows of one point needs no other: the exposure is given or
-    /// that of the last picture, and neither samples nor surfaces are blended.
-    fn can_display_at_once(&self, seen: &SceneBuffers, render_settings: &RenderSettings) -> bool {
-        let blends = seen.batches.iter().any(|batch| batch.alpha_mode == AlphaMode::Blend);
-        let is_exposed = render_settings.fixed_exposure().is_some() || self.shows_last_exposure;
+    /// Drops what is kept of the last scene if the request is for another one.
+    fn note_scene(&mut self, request: &PictureRequest<'_>) {
+        let shadows = request.shadows.map_or_else(Weak::new, Arc::downgrade);
+        if !Weak::ptr_eq(&self.last_shadows, &shadows) {
+            self.live.iter_mut().for_each(RealTimeLight::clear_scene);
+            self.debug.iter_mut().for_each(DebugPass::clear_scene);
+            self.last_shadows = shadows;
+        }
+    }
+
+    /// The surface pass can write display colours: nothing else reads the radiance, the exposure is known before, and
+    /// neither samples nor surfaces are blended.
+    fn can_display_at_once(&self, in_view: &SceneBuffers, request: &PictureRequest<'_>) -> bool {
+        let blends = in_view.batches.iter().any(|batch| batch.alpha_mode == AlphaMode::Blend);
+        let is_exposed = request.settings.fixed_exposure().is_some() || request.exposure == MeteredExposure::OfLast;
         !self.keeps_radiance && self.samples == 1 && is_exposed && !blends
     }
 
-    /// The exposure in stops that was metered last; none before a picture was metered. Blocks until it is drawn.
+    /// The exposure in stops that was metered last; `None` if no picture was metered. Blocks until it is drawn.
     ///
     /// # Errors
-    /// The device was lost.
+    /// Returns an error if the device was lost.
     pub fn metered_ev(&self, gpu: &Gpu) -> Result<Option<f32>, GpuError> {
         let bytes = read_buffer(gpu, self.meter.exposure())?;
         let factor = bytes.first_chunk().map_or(0.0, |bytes| f32::from_ne_bytes(*bytes));
         Ok((factor > 0.0).then(|| factor.log2()))
     }
 
-    /// The linear picture that was drawn last where it is kept, before exposure, scaled by [`SceneBuffers::pre_exposure`].
+    /// The radiance of the last picture of [`Self::keeping_radiance`], before exposure, scaled by
+    /// [`SceneBuffers::pre_exposure`].
     pub(super) fn hdr(&self) -> Option<&wgpu::Texture> {
         self.targets.first().map(|targets| &targets.hdr)
     }
+}
+
+/// What every pass of shadows is given; `None` if the request has no casters and lights.
+fn frame_context<'a>(
+    gpu: &'a Gpu,
+    request: &'a PictureRequest<'_>,
+    bindings: &'a wgpu::BindGroup,
+    in_view: &'a SceneBuffers,
+) -> Option<FrameContext<'a>> {
+    let PictureRequest { size, scene, shadows, view, settings, stopwatch, .. } = request;
+    let (size, stopwatch) = (*size, *stopwatch);
+    shadows.map(|shadows| FrameContext {
+        gpu,
+        bindings,
+        size,
+        scene,
+        in_view,
+        shadows,
+        view,
+        render_settings: settings,
+        stopwatch,
+    })
 }

@@ -7,10 +7,9 @@ use glam::Vec3;
 use wgpu::util::DeviceExt;
 
 use super::frame_uniform::{frame_bind_group, frame_layout};
-use super::{RenderSettings, View};
+use super::picture_request::PictureRequest;
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
-use crate::render::scene::SceneBuffers;
 use crate::render::scene::gpu_vertex::GpuVertex;
 use crate::render::targets::DEPTH_FORMAT;
 use crate::scene::AlphaMode;
@@ -77,39 +76,33 @@ impl OverlayPass {
             bind_group_layouts: &[Some(&frame_layout)],
             immediate_size: 0,
         });
-        let make = |kind| pipeline(gpu, &layout, &module, output_format, kind);
+        let make = |drawn| pipeline(gpu, &layout, &module, output_format, drawn);
         Self {
-            culled: make(Kind::Depth { cull_mode: Some(wgpu::Face::Back) }),
-            two_faced: make(Kind::Depth { cull_mode: None }),
-            lines: make(Kind::Marks(wgpu::PrimitiveTopology::LineList)),
-            triangles: make(Kind::Marks(wgpu::PrimitiveTopology::TriangleList)),
+            culled: make(Primitive::Depth { cull_mode: Some(wgpu::Face::Back) }),
+            two_faced: make(Primitive::Depth { cull_mode: None }),
+            lines: make(Primitive::Marks(wgpu::PrimitiveTopology::LineList)),
+            triangles: make(Primitive::Marks(wgpu::PrimitiveTopology::TriangleList)),
             frame_layout,
             depth: None,
         }
     }
 
-    /// Draws `overlay` over the picture of `scene` in `target`, which is `size` pixels wide and high.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "where to draw (encoder, target, size) and what (scene, view, look, overlay)"
-    )]
+    /// Draws `overlay` over a finished picture in `target`, which has the size of the request.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
-        size: [u32; 2],
-        scene: &SceneBuffers,
-        view: &View,
-        settings: &RenderSettings,
+        request: &PictureRequest<'_>,
         overlay: &Overlay,
     ) {
+        let &PictureRequest { size, scene, view, settings, .. } = request;
         let depth = match self.depth.take() {
             Some(last) if last.1 == size => last,
             _ => (depth_target(gpu, size), size),
         };
-        let frame = frame_bind_group(gpu, &self.frame_layout, scene, view, settings);
-        let seen = scene.in_view(gpu, &view.cull_view(settings));
+        let frame = frame_bind_group(gpu, &self.frame_layout, scene, &view, settings);
+        let seen = scene.in_view(gpu, &view.cull_view(settings.cull_back));
         let mut pass = begin(encoder, target, &depth.0);
         pass.set_bind_group(0, &frame, &[]);
         // What hides marks.
@@ -173,7 +166,7 @@ fn begin<'e>(
 
 /// What a pipeline draws.
 #[derive(Clone, Copy)]
-enum Kind {
+enum Primitive {
     /// The scene, into the depth alone.
     Depth { cull_mode: Option<wgpu::Face> },
     /// Lines or triangles over the picture.
@@ -185,20 +178,20 @@ fn pipeline(
     layout: &wgpu::PipelineLayout,
     module: &wgpu::ShaderModule,
     output_format: wgpu::TextureFormat,
-    kind: Kind,
+    drawn: Primitive,
 ) -> wgpu::RenderPipeline {
     const MARK: wgpu::VertexBufferLayout<'_> = wgpu::VertexBufferLayout {
         array_stride: size_of::<Mark>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &wgpu::vertex_attr_array![0 => Float32x3, 1 => Unorm8x4],
     };
-    let (label, vertex, fragment, buffer, writes) = match kind {
-        Kind::Depth { .. } => ("overlay depth", "solid", "unseen", GpuVertex::LAYOUT, wgpu::ColorWrites::empty()),
-        Kind::Marks(_) => ("overlay marks", "mark", "tint", MARK, wgpu::ColorWrites::ALL),
+    let (label, vertex, fragment, buffer, writes) = match drawn {
+        Primitive::Depth { .. } => ("overlay depth", "solid", "unseen", GpuVertex::LAYOUT, wgpu::ColorWrites::empty()),
+        Primitive::Marks(_) => ("overlay marks", "mark", "tint", MARK, wgpu::ColorWrites::ALL),
     };
-    let primitive = match kind {
-        Kind::Depth { cull_mode } => wgpu::PrimitiveState { cull_mode, ..Default::default() },
-        Kind::Marks(topology) => wgpu::PrimitiveState { topology, ..Default::default() },
+    let primitive = match drawn {
+        Primitive::Depth { cull_mode } => wgpu::PrimitiveState { cull_mode, ..Default::default() },
+        Primitive::Marks(topology) => wgpu::PrimitiveState { topology, ..Default::default() },
     };
     let constants = [("TARGET_ENCODES", f64::from(u8::from(output_format.is_srgb())))];
     let blend = Some(wgpu::BlendState::ALPHA_BLENDING);
@@ -214,7 +207,7 @@ fn pipeline(
         primitive,
         depth_stencil: Some(wgpu::DepthStencilState {
             format: DEPTH_FORMAT,
-            depth_write_enabled: Some(matches!(kind, Kind::Depth { .. })),
+            depth_write_enabled: Some(matches!(drawn, Primitive::Depth { .. })),
             depth_compare: Some(wgpu::CompareFunction::Greater),
             stencil: Default::default(),
             bias: Default::default(),

@@ -1,109 +1,54 @@
-//! A picture without a window.
+//! What one picture shows, and how.
 
 use std::sync::Arc;
 
-use super::{Picture, RenderSettings, Renderer, ShadowScene, View};
-use crate::baked::BakedScene;
-use crate::gpu::readback::{f32_from_half, read_texture};
-use crate::gpu::{Gpu, GpuError};
+use super::{RenderSettings, ShadowScene, View};
+use crate::gpu::Stopwatch;
 use crate::render::scene::SceneBuffers;
 use crate::scene::Camera;
 
-/// Samples a pixel of a picture for people.
-const SAMPLES: u32 = 4;
-
-/// A picture of `size` pixels, with smooth edges.
-///
-/// # Errors
-/// The size is more than the GPU can draw, or the GPU was lost.
-pub fn picture(
-    gpu: &Gpu,
-    baked: &BakedScene,
-    camera: &Camera,
-    size: [u32; 2],
-    settings: &RenderSettings,
-) -> Result<Picture, GpuError> {
-    let asks = settings.shadows.is_some() || settings.shadow_debug.is_some();
-    let shadows = asks.then(|| Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene.clone()))));
-    picture_in_light(gpu, &SceneBuffers::new(gpu, baked), shadows, camera, size, settings, SAMPLES)
+/// What one picture shows, and how.
+#[derive(Clone, Copy)]
+pub struct PictureRequest<'a> {
+    /// Pixels across and down.
+    pub size: [u32; 2],
+    /// The scene on the device.
+    pub scene: &'a SceneBuffers,
+    /// Its casters and lights. Without them, direct light comes from the vertices whatever the settings say.
+    pub shadows: Option<&'a Arc<ShadowScene>>,
+    /// The camera.
+    pub view: View,
+    /// What is shown of surfaces, and how bright.
+    pub settings: &'a RenderSettings,
+    /// The picture that an automatic exposure is metered from.
+    pub exposure: MeteredExposure,
+    /// Measures the time of each pass.
+    pub stopwatch: Option<&'a Stopwatch>,
 }
 
-/// A picture of a scene that is on the device already, with `samples` samples a pixel, 1 or 4.
-///
-/// # Errors
-/// As [`picture`].
-pub fn picture_of(
-    gpu: &Gpu,
-    scene: &SceneBuffers,
-    camera: &Camera,
-    size: [u32; 2],
-    settings: &RenderSettings,
-    samples: u32,
-) -> Result<Picture, GpuError> {
-    picture_in_light(gpu, scene, None, camera, size, settings, samples)
+/// The picture that an automatic exposure is metered from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum MeteredExposure {
+    /// This picture: it is drawn as radiance, metered, and then tone mapped.
+    #[default]
+    OfThis,
+    /// The picture before it, as in a movement. With one sample a pixel and no surface that blends, the surface pass then
+    /// writes display colours at once, which is faster.
+    OfLast,
 }
 
-/// A picture as [`picture_of`], with direct light from the lights of `shadows` where the look asks for it.
-///
-/// # Errors
-/// As [`picture`].
-pub fn picture_in_light(
-    gpu: &Gpu,
-    scene: &SceneBuffers,
-    shadows: Option<Arc<ShadowScene>>,
-    camera: &Camera,
-    size: [u32; 2],
-    settings: &RenderSettings,
-    samples: u32,
-) -> Result<Picture, GpuError> {
-    check_size(gpu, size)?;
-    let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, samples);
-    renderer.cast_shadows(shadows);
-    renderer.keep_radiance();
-    let target = display_target(gpu, size);
-    let view = View::from_camera(camera, size[0] as f32 / size[1] as f32);
-    let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("picture") });
-    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, scene, &view, settings);
-    gpu.queue.submit([encoder.finish()]);
-
-    let display = read_texture(gpu, &target, 4)?;
-    let hdr = renderer.hdr().expect("a picture has just been drawn");
-    let radiance = radiance_from_hdr(&read_texture(gpu, hdr, 8)?, scene.pre_exposure);
-    Ok(Picture { width: size[0], height: size[1], radiance, display })
-}
-
-/// A picture of this size can be drawn.
-///
-/// # Errors
-/// It cannot.
-pub fn check_size(gpu: &Gpu, size: [u32; 2]) -> Result<(), GpuError> {
-    let limit = gpu.device.limits().max_texture_dimension_2d;
-    if size.iter().all(|side| (1..=limit).contains(side)) {
-        return Ok(());
+impl<'a> PictureRequest<'a> {
+    /// A picture that `camera` takes of a scene, with the stored light of the scene.
+    #[must_use]
+    pub fn new(scene: &'a SceneBuffers, camera: &Camera, size: [u32; 2], settings: &'a RenderSettings) -> Self {
+        Self {
+            size,
+            scene,
+            shadows: None,
+            view: View::from_camera(camera, size[0] as f32 / size[1] as f32),
+            settings,
+            exposure: MeteredExposure::OfThis,
+            stopwatch: None,
+        }
     }
-    Err(GpuError::PictureSize { width: size[0], height: size[1], limit })
-}
-
-fn display_target(gpu: &Gpu, size: [u32; 2]) -> wgpu::Texture {
-    gpu.device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("display"),
-        size: wgpu::Extent3d { width: size[0], height: size[1], depth_or_array_layers: 1 },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: wgpu::TextureFormat::Rgba8Unorm,
-        usage: wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::COPY_SRC,
-        view_formats: &[],
-    })
-}
-
-/// Undoes half floats and pre-exposure.
-fn radiance_from_hdr(bytes: &[u8], pre_exposure: f32) -> Vec<[f32; 4]> {
-    let (pixels, _) = bytes.as_chunks::<8>();
-    let channel = |pixel: &[u8; 8], i: usize| f32_from_half(u16::from_le_bytes([pixel[2 * i], pixel[2 * i + 1]]));
-    let radiance = |pixel: &[u8; 8]| {
-        let [r, g, b] = std::array::from_fn(|i| channel(pixel, i) / pre_exposure);
-        [r, g, b, channel(pixel, 3)]
-    };
-    pixels.iter().map(radiance).collect()
 }

@@ -3,7 +3,6 @@
 use glam::camera::rh::proj::directx;
 use glam::{Mat4, Vec3, Vec4};
 
-use super::RenderSettings;
 use crate::base::bounds::Frustum;
 use crate::render::scene::cull_view::CullView;
 use crate::scene::{Camera, Projection};
@@ -48,10 +47,10 @@ impl View {
         Frustum::new(&self.projection_from_world())
     }
 
-    /// What of a scene may be seen, as `settings` shows backs.
+    /// The view as culling needs it; `cull_back` is [`RenderSettings::cull_back`](super::RenderSettings::cull_back).
     #[must_use]
-    pub fn cull_view(&self, settings: &RenderSettings) -> CullView {
-        CullView { frustum: self.frustum(), eye: self.eye(), cull_back: settings.cull_back }
+    pub fn cull_view(&self, cull_back: bool) -> CullView {
+        CullView { frustum: self.frustum(), eye: self.eye(), cull_back }
     }
 
     /// Matrix from world space to clip space.

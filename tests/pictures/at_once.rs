@@ -7,8 +7,8 @@ use hemicube::baked::{BakedScene, VertexLight};
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{
-    Exposure, RenderSettings, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View,
-    picture_in_light,
+    Exposure, MeteredExposure, PictureRequest, RenderSettings, Renderer, Shading, ShadowScene, ShadowSettings,
+    ShadowTechnique, ToneMap, draw_picture,
 };
 use hemicube::scene::{AlphaMode, Scene, builtin};
 use wgpu::TextureFormat;
@@ -24,12 +24,11 @@ fn compare(gpu: &Gpu, scene: &Scene, settings: &RenderSettings) -> [usize; 2] {
     let buffers = SceneBuffers::new(gpu, &BakedScene { scene: scene.clone(), light });
     let shadows = Arc::new(ShadowScene::new(gpu, Arc::new(scene.clone())));
     let camera = &scene.cameras[0];
-    let of_radiance = picture_in_light(gpu, &buffers, Some(Arc::clone(&shadows)), camera, SIZE, settings, 1);
-    let of_radiance = of_radiance.expect("a picture").display;
+    let request = PictureRequest::new(&buffers, camera, SIZE, settings);
+    let request = PictureRequest { shadows: Some(&shadows), ..request };
+    let of_radiance = draw_picture(gpu, &request, 1).expect("a picture").display;
     let mut renderer = Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
-    renderer.cast_shadows(Some(shadows));
-    let view = View::from_camera(camera, SIZE[0] as f32 / SIZE[1] as f32);
-    let at_once = displayed(gpu, &mut renderer, SIZE, &buffers, &view, settings);
+    let at_once = displayed(gpu, &mut renderer, &request);
     let pixels = at_once.as_chunks::<4>().0.iter().zip(of_radiance.as_chunks::<4>().0);
     let differing = pixels.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| a.abs_diff(*b) > 1)).count();
     let grey = at_once.as_chunks::<4>().0.iter().filter(|pixel| !matches!(pixel[..3], [0, 0, 0] | [255, 255, 255]));
@@ -83,15 +82,16 @@ fn pictures_of_a_movement_settle_on_the_exposure_that_suits_them() {
     let buffers = SceneBuffers::new(gpu, &BakedScene { scene: scene.clone(), light });
     let [dim, bright] =
         [0.02, 40.0].map(|ambient| RenderSettings { ambient: Vec3::splat(ambient), ..RenderSettings::default() });
-    let view = View::from_camera(&scene.cameras[0], SIZE[0] as f32 / SIZE[1] as f32);
+    let [dim, bright] =
+        [&dim, &bright].map(|settings| PictureRequest::new(&buffers, &scene.cameras[0], SIZE, settings));
     let mut renderer = Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
-    let exact = displayed(gpu, &mut renderer, SIZE, &buffers, &view, &bright);
+    let exact = displayed(gpu, &mut renderer, &bright);
     let ev = renderer.metered_ev(gpu).expect("a device").expect("metered");
     // From the light of another picture to that of this one.
-    let _ = displayed(gpu, &mut renderer, SIZE, &buffers, &view, &dim);
-    renderer.show_last_exposure(true);
-    let first = displayed(gpu, &mut renderer, SIZE, &buffers, &view, &bright);
-    let second = displayed(gpu, &mut renderer, SIZE, &buffers, &view, &bright);
+    let _ = displayed(gpu, &mut renderer, &dim);
+    let bright = PictureRequest { exposure: MeteredExposure::OfLast, ..bright };
+    let first = displayed(gpu, &mut renderer, &bright);
+    let second = displayed(gpu, &mut renderer, &bright);
     let mean = |picture: &[u8]| picture.iter().map(|&value| f64::from(value)).sum::<f64>() / picture.len() as f64;
     assert!(mean(&first) > mean(&exact) + 20.0, "{} after {}", mean(&first), mean(&exact));
     assert!((mean(&second) - mean(&exact)).abs() < 2.0, "{} for {}", mean(&second), mean(&exact));

@@ -7,7 +7,7 @@ use hemicube::base::ids::GroupId;
 use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Exposure, Picture, Raster, RenderSettings, Renderer, ToneMap, View, picture};
+use hemicube::render::{Exposure, Picture, PictureRequest, Raster, RenderSettings, Renderer, ToneMap, picture};
 use hemicube::scene::Material;
 use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
@@ -133,12 +133,12 @@ fn two_pictures_in_one_submission_keep_their_own_look() {
 fn draw_two_into(gpu: &Gpu, format: TextureFormat, quads: &Quads) -> Vec<u8> {
     let scene = SceneBuffers::new(gpu, &quads.baked);
     let mut renderer = Renderer::new(gpu, format, 1);
-    let view = View::from_camera(&square_camera(), 1.0);
     let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
     let targets = [0.0, -2.0].map(|ev| {
         let target = screen(gpu, [SIZE; 2], format);
         let settings = RenderSettings { exposure: Exposure::Ev(ev), ..plain() };
-        renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), [SIZE; 2], &scene, &view, &settings);
+        let request = PictureRequest::new(&scene, &square_camera(), [SIZE; 2], &settings);
+        renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), &request);
         target
     });
     gpu.queue.submit([encoder.finish()]);

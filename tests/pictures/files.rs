@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Exposure, Raster, RenderSettings, ToneMap, picture_of, tone_map_on_cpu};
+use hemicube::render::{Exposure, PictureRequest, Raster, RenderSettings, ToneMap, draw_picture, tone_map_on_cpu};
 use hemicube::scene::{Camera, Material};
 
 use super::stage::{SIZE, draw, four_texels, plain};
@@ -59,7 +59,7 @@ fn a_room_looks_as_it_did() {
     let Some(gpu) = gpu() else { return };
     let camera = Camera::looking_at("room", Vec3::new(0.3, 0.2, 4.2), Vec3::ZERO, 0.65);
     let scene = SceneBuffers::new(gpu, &room().baked);
-    let drawn = picture_of(gpu, &scene, &camera, [256; 2], &RenderSettings::default(), 1);
+    let drawn = draw_picture(gpu, &PictureRequest::new(&scene, &camera, [256; 2], &RenderSettings::default()), 1);
     assert_snapshot("room", &drawn.expect("a picture"));
 }
 

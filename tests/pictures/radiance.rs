@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use hemicube::base::ids::GroupId;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{RenderSettings, Shading, picture, picture_of};
+use hemicube::render::{PictureRequest, RenderSettings, Shading, draw_picture, picture};
 use hemicube::scene::Material;
 
 use super::stage::{SIZE, assert_close, centre, display_at, draw, plain, radiance_at};
@@ -125,6 +125,7 @@ fn light_can_be_replaced_on_the_device() {
     let scene = SceneBuffers::new(gpu, &quads.baked);
     quads.light(GroupId(0), |_| Vec3::splat(PI), |_| Vec3::splat(PI));
     scene.set_light(gpu, &quads.baked.light);
-    let replaced = picture_of(gpu, &scene, &square_camera(), [SIZE; 2], &plain(), 1).expect("a picture");
+    let replaced =
+        draw_picture(gpu, &PictureRequest::new(&scene, &square_camera(), [SIZE; 2], &plain()), 1).expect("a picture");
     assert_close(radiance_at(&replaced, 9, 9), Vec3::splat(2.0));
 }

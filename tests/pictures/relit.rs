@@ -6,7 +6,7 @@ use glam::Vec3;
 use hemicube::base::ids::GroupId;
 use hemicube::gpu::Gpu;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{RenderSettings, Renderer, View};
+use hemicube::render::{PictureRequest, RenderSettings, Renderer};
 use wgpu::TextureFormat;
 
 use super::stage::{SIZE, plain};
@@ -16,8 +16,8 @@ use crate::support::screen::displayed;
 
 /// Display value of the middle, red, of one picture after the other by the same renderer.
 fn red(gpu: &Gpu, renderer: &mut Renderer, scene: &SceneBuffers, settings: &RenderSettings) -> u8 {
-    let view = View::from_camera(&square_camera(), 1.0);
-    displayed(gpu, renderer, [SIZE; 2], scene, &view, settings)[(4 * (SIZE * SIZE / 2 + SIZE / 2)) as usize]
+    displayed(gpu, renderer, &PictureRequest::new(scene, &square_camera(), [SIZE; 2], settings))
+        [(4 * (SIZE * SIZE / 2 + SIZE / 2)) as usize]
 }
 
 /// White paint whose group `group` alone brings radiance 0.5, half of it direct.

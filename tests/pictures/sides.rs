@@ -5,7 +5,7 @@ use std::f32::consts::PI;
 use glam::Vec3;
 use hemicube::base::ids::{GroupId, TriangleId};
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{RenderSettings, picture_of};
+use hemicube::render::{PictureRequest, RenderSettings, draw_picture};
 use hemicube::scene::{AlphaMode, Material};
 
 use super::stage::{SIZE, assert_close, draw, plain, quarters, radiance_at};
@@ -31,7 +31,7 @@ fn masks_have_holes_with_and_without_multisampling() {
     let Some(gpu) = gpu() else { return };
     for samples in [1, 4] {
         let scene = SceneBuffers::new(gpu, &quads.baked);
-        let drawn = picture_of(gpu, &scene, &square_camera(), [SIZE; 2], &plain(), samples);
+        let drawn = draw_picture(gpu, &PictureRequest::new(&scene, &square_camera(), [SIZE; 2], &plain()), samples);
         let white = [255; 3];
         assert_eq!(quarters(&drawn.expect("a picture")), [[255, 0, 0], white, white, white], "{samples} samples");
     }

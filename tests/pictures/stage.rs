@@ -4,7 +4,7 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{Exposure, Picture, RenderSettings, ToneMap, picture_of};
+use hemicube::render::{Exposure, Picture, PictureRequest, RenderSettings, ToneMap, draw_picture};
 use hemicube::scene::Material;
 
 use crate::support::device::gpu;
@@ -27,7 +27,7 @@ pub fn plain() -> RenderSettings {
 pub fn draw(quads: &Quads, settings: &RenderSettings) -> Option<Picture> {
     let gpu = gpu()?;
     let scene = SceneBuffers::new(gpu, &quads.baked);
-    Some(picture_of(gpu, &scene, &square_camera(), [SIZE; 2], settings, 1).expect("a picture"))
+    Some(draw_picture(gpu, &PictureRequest::new(&scene, &square_camera(), [SIZE; 2], settings), 1).expect("a picture"))
 }
 
 pub fn radiance_at(picture: &Picture, x: u32, y: u32) -> Vec3 {

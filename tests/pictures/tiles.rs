@@ -8,7 +8,8 @@ use hemicube::gpu::Gpu;
 use hemicube::patch::{MeshSettings, PatchMesh};
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{
-    Exposure, RenderSettings, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique, View, picture_in_light,
+    Exposure, PictureRequest, RenderSettings, Renderer, Shading, ShadowScene, ShadowSettings, ShadowTechnique,
+    draw_picture,
 };
 use hemicube::scene::{Camera, Projection, builtin};
 use wgpu::TextureFormat;
@@ -49,8 +50,9 @@ fn both(gpu: &Gpu, baked: &BakedScene, camera: &Camera, settings: &RenderSetting
     without.tiled = None;
     let shadows = Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene.clone())));
     [with_tiles, without].map(|buffers| {
-        let picture = picture_in_light(gpu, &buffers, Some(Arc::clone(&shadows)), camera, SIZE, settings, samples);
-        picture.expect("a picture").display
+        let request = PictureRequest::new(&buffers, camera, SIZE, settings);
+        let request = PictureRequest { shadows: Some(&shadows), ..request };
+        draw_picture(gpu, &request, samples).expect("a picture").display
     })
 }
 
@@ -97,8 +99,9 @@ fn an_instance_that_is_hidden_has_no_tiles_in_the_picture() {
     let hidden = baked.scene.triangles[baked.scene.triangles.len() - 1].instance;
     let [tiles, mut elements] = [(); 2].map(|()| all.part(gpu, &baked.scene, |triangle| triangle.instance != hidden));
     elements.tiled = None;
-    let [whole, tiles, elements] = [&all, &tiles, &elements]
-        .map(|buffers| picture_in_light(gpu, buffers, None, camera, SIZE, &lit, 1).expect("a picture").display);
+    let [whole, tiles, elements] = [&all, &tiles, &elements].map(|buffers| {
+        draw_picture(gpu, &PictureRequest::new(buffers, camera, SIZE, &lit), 1).expect("a picture").display
+    });
     assert!(difference(&tiles, &whole).1 > 0.02, "something is gone");
     let (largest, share) = difference(&tiles, &elements);
     assert!(share < 0.003, "{share} of the pixels differ, by up to {largest}");
@@ -109,12 +112,12 @@ fn tiles_follow_light_that_is_written_anew_or_weighed_otherwise() {
     let Some(gpu) = gpu() else { return };
     let mut baked = waving();
     let camera = baked.scene.cameras[0].clone();
-    let view = View::from_camera(&camera, SIZE[0] as f32 / SIZE[1] as f32);
     let lit = RenderSettings { exposure: Exposure::Ev(-1.0), ..RenderSettings::default() };
     let buffers = SceneBuffers::new(gpu, &baked);
     let [mut one, mut other] = [(); 2].map(|()| Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1));
-    let shown =
-        |renderer: &mut Renderer, settings: &RenderSettings| displayed(gpu, renderer, SIZE, &buffers, &view, settings);
+    let shown = |renderer: &mut Renderer, settings: &RenderSettings| {
+        displayed(gpu, renderer, &PictureRequest::new(&buffers, &camera, SIZE, settings))
+    };
     let first = shown(&mut one, &lit);
     let dimmed = shown(&mut other, &RenderSettings { group_weights: vec![Vec3::splat(0.5)], ..lit.clone() });
     assert!(difference(&first, &dimmed).1 > 0.3, "half of the light is darker");

@@ -1,13 +1,11 @@
 //! Debug views show what the techniques work with.
 
-use std::sync::Arc;
-
 use glam::Vec3;
 use hemicube::gpu::Gpu;
 use hemicube::render::shadow::debug::count_colour;
 use hemicube::render::shadow::volume::silhouette::{facing, silhouette};
 use hemicube::render::shadow::{DebugView, ShadowDebug};
-use hemicube::render::{Exposure, Picture, RenderSettings, ShadowSettings, ShadowTechnique, picture_in_light};
+use hemicube::render::{Exposure, Picture, RenderSettings, ShadowSettings, ShadowTechnique, draw_picture};
 
 use super::stage::{SIZE, Shot, Stage, at, settings};
 use crate::support::device::gpu;
@@ -27,8 +25,7 @@ fn picture(gpu: &Gpu, shot: &Shot, shadows: &ShadowSettings, view: Option<DebugV
         exposure: Exposure::Ev(0.0),
         ..RenderSettings::default()
     };
-    let shadows = Some(Arc::clone(&shot.shadows));
-    picture_in_light(gpu, &shot.buffers, shadows, &shot.camera, SIZE, &render_settings, 1).expect("a picture")
+    draw_picture(gpu, &shot.request(&render_settings), 1).expect("a picture")
 }
 
 fn pixel(picture: &Picture, at: usize) -> [u8; 3] {

@@ -1,12 +1,10 @@
 //! What the viewer's laboratory shows: light that is added up in parts, known faults, choices by clicking, times.
 
-use std::sync::Arc;
-
 use glam::Vec3;
 use hemicube::base::ids::{GroupId, InstanceId, TriangleId};
 use hemicube::gpu::{Gpu, Stopwatch};
 use hemicube::render::shadow::{KnownFault, SampleBatch, known_fault, num_batches};
-use hemicube::render::{Exposure, RenderSettings, Renderer, ShadowSettings, ShadowTechnique, View};
+use hemicube::render::{Exposure, PictureRequest, RenderSettings, Renderer, ShadowSettings, ShadowTechnique, View};
 use hemicube::scene::{Instance, Light, LightKind, Material};
 
 use super::stage::{SIZE, Shot, Stage, at, paint, settings};
@@ -28,15 +26,11 @@ fn soft_stage() -> Stage {
 struct Easel {
     renderer: Renderer,
     target: wgpu::Texture,
-    view: View,
 }
 
 impl Easel {
-    fn new(gpu: &Gpu, shot: &Shot) -> Self {
-        let mut renderer = Renderer::new(gpu, FORMAT, 1);
-        renderer.cast_shadows(Some(Arc::clone(&shot.shadows)));
-        let target = screen(gpu, SIZE, FORMAT);
-        Self { renderer, target, view: View::from_camera(&shot.camera, SIZE[0] as f32 / SIZE[1] as f32) }
+    fn new(gpu: &Gpu) -> Self {
+        Self { renderer: Renderer::new(gpu, FORMAT, 1), target: screen(gpu, SIZE, FORMAT) }
     }
 
     fn add(&mut self, gpu: &Gpu, shot: &Shot, shadows: &ShadowSettings, is_partial: bool) {
@@ -44,10 +38,10 @@ impl Easel {
             RenderSettings { shadows: Some(shadows.clone()), exposure: Exposure::Ev(0.0), ..RenderSettings::default() };
         let mut encoder = gpu.device.create_command_encoder(&Default::default());
         if is_partial {
-            self.renderer.add_light(gpu, &mut encoder, SIZE, &shot.buffers, &self.view, &render_settings);
+            self.renderer.add_light(gpu, &mut encoder, &shot.request(&render_settings));
         } else {
             let target = self.target.create_view(&Default::default());
-            self.renderer.draw(gpu, &mut encoder, &target, SIZE, &shot.buffers, &self.view, &render_settings);
+            self.renderer.draw(gpu, &mut encoder, &target, &shot.request(&render_settings));
         }
         gpu.queue.submit([encoder.finish()]);
     }
@@ -63,7 +57,7 @@ fn light_that_is_added_up_in_parts_is_the_light_of_all_points_at_once() {
     let shot = soft_stage().shot(gpu);
     for technique in [ShadowTechnique::VolumeDepthFail, ShadowTechnique::Raytraced] {
         let per_lamp = 64;
-        let mut easel = Easel::new(gpu, &shot);
+        let mut easel = Easel::new(gpu);
         for number in 0..num_batches(per_lamp) {
             for (first, count, is_partial) in [(0, 40, true), (40, 24, false)] {
                 let batch = Some(SampleBatch { number, first, count });
@@ -95,7 +89,7 @@ fn maps_that_are_kept_show_what_new_ones_would() {
     };
     let map = settings(ShadowTechnique::Map);
     let anew = |shot: &Shot| {
-        let mut easel = Easel::new(gpu, shot);
+        let mut easel = Easel::new(gpu);
         easel.add(gpu, shot, &map, false);
         easel.display(gpu)
     };
@@ -105,9 +99,8 @@ fn maps_that_are_kept_show_what_new_ones_would() {
         let share = shot.fault(gpu, &map);
         assert!(share <= 0.005, "{share} of the decisions are wrong");
     }
-    let mut easel = Easel::new(gpu, &shots[0]);
+    let mut easel = Easel::new(gpu);
     for turn in [0, 0, 1, 1, 0] {
-        easel.renderer.cast_shadows(Some(Arc::clone(&shots[turn].shadows)));
         easel.add(gpu, &shots[turn], &map, false);
         assert!(easel.display(gpu) == pictures[turn], "scene {turn}");
     }
@@ -171,16 +164,16 @@ fn planes_and_casters_can_be_chosen() {
 fn every_pass_is_timed() {
     let Some(gpu) = gpu() else { return };
     let shot = soft_stage().shot(gpu);
-    let mut easel = Easel::new(gpu, &shot);
-    let watch = Arc::new(Stopwatch::new(gpu));
-    easel.renderer.time(Some(Arc::clone(&watch)));
+    let mut easel = Easel::new(gpu);
+    let watch = Stopwatch::new(gpu);
     let view = easel.target.create_view(&Default::default());
     // More points than the surface pass adds itself.
     let map = ShadowSettings { light_samples: 8, ..settings(ShadowTechnique::Map) };
     let render_settings = RenderSettings { shadows: Some(map), ..RenderSettings::default() };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());
     watch.begin(&mut encoder);
-    easel.renderer.draw(gpu, &mut encoder, &view, SIZE, &shot.buffers, &easel.view, &render_settings);
+    let request = PictureRequest { stopwatch: Some(&watch), ..shot.request(&render_settings) };
+    easel.renderer.draw(gpu, &mut encoder, &view, &request);
     watch.end(&mut encoder);
     let begun = std::time::Instant::now();
     gpu.queue.submit([encoder.finish()]);

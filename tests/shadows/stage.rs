@@ -6,12 +6,12 @@ use glam::{Mat4, Vec3, Vec4};
 use hemicube::baked::{BakedScene, VertexLight};
 use hemicube::base::ids::{InstanceId, MaterialId};
 use hemicube::gpu::Gpu;
-use hemicube::render::picture_in_light;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::shadow::{ComparedScene, Decisions, ShadowComparison, ShadowDifference, shadow_difference};
 use hemicube::render::{
     Exposure, Picture, RenderSettings, ShadowScene, ShadowSettings, ShadowTechnique, ToneMap, View,
 };
+use hemicube::render::{PictureRequest, draw_picture};
 use hemicube::scene::{Camera, Instance, Light, LightKind, Material, Scene, Triangle, Vertex};
 
 use crate::support::device::gpu;
@@ -195,6 +195,12 @@ impl Shot {
         shadow_difference(&self.decisions(gpu, settings), &self.decisions(gpu, &raytraced())).share
     }
 
+    /// The request of a picture with the lights of the scene.
+    pub fn request<'a>(&'a self, settings: &'a RenderSettings) -> PictureRequest<'a> {
+        let request = PictureRequest::new(&self.buffers, &self.camera, SIZE, settings);
+        PictureRequest { shadows: Some(&self.shadows), ..request }
+    }
+
     pub fn picture(&self, gpu: &Gpu, settings: &ShadowSettings, samples: u32) -> Picture {
         let render_settings = RenderSettings {
             shadows: Some(settings.clone()),
@@ -203,16 +209,7 @@ impl Shot {
             ambient: Vec3::splat(0.1),
             ..RenderSettings::default()
         };
-        picture_in_light(
-            gpu,
-            &self.buffers,
-            Some(Arc::clone(&self.shadows)),
-            &self.camera,
-            SIZE,
-            &render_settings,
-            samples,
-        )
-        .expect("a picture")
+        draw_picture(gpu, &self.request(&render_settings), samples).expect("a picture")
     }
 }
 

@@ -2,8 +2,7 @@
 
 use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;
-use hemicube::render::scene::SceneBuffers;
-use hemicube::render::{RenderSettings, Renderer, View};
+use hemicube::render::{PictureRequest, Renderer};
 use wgpu::{
     CommandEncoderDescriptor, Extent3d, Texture, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
 };
@@ -23,17 +22,10 @@ pub fn screen(gpu: &Gpu, size: [u32; 2], format: TextureFormat) -> Texture {
 }
 
 /// RGBA bytes of one picture by a renderer into [`TextureFormat::Rgba8Unorm`].
-pub fn displayed(
-    gpu: &Gpu,
-    renderer: &mut Renderer,
-    size: [u32; 2],
-    scene: &SceneBuffers,
-    view: &View,
-    settings: &RenderSettings,
-) -> Vec<u8> {
-    let target = screen(gpu, size, TextureFormat::Rgba8Unorm);
+pub fn displayed(gpu: &Gpu, renderer: &mut Renderer, request: &PictureRequest<'_>) -> Vec<u8> {
+    let target = screen(gpu, request.size, TextureFormat::Rgba8Unorm);
     let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());
-    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), size, scene, view, settings);
+    renderer.draw(gpu, &mut encoder, &target.create_view(&Default::default()), request);
     gpu.queue.submit([encoder.finish()]);
     read_texture(gpu, &target, 4).expect("a picture")
 }

@@ -8,7 +8,7 @@ use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;
 use hemicube::render::scene::SceneBuffers;
 use hemicube::render::{
-    LuxScale, Mark, Overlay, OverlayPass, Picture, RenderSettings, Shading, View, picture_of, turbo,
+    LuxScale, Mark, Overlay, OverlayPass, Picture, PictureRequest, RenderSettings, Shading, draw_picture, turbo,
 };
 use wgpu::{CommandEncoderDescriptor, TextureFormat};
 
@@ -24,7 +24,7 @@ fn false_colour(lux_scale: LuxScale) -> RenderSettings {
 
 fn drawn(gpu: &Gpu, quads: &Quads, settings: &RenderSettings) -> Picture {
     let scene = SceneBuffers::new(gpu, &quads.baked);
-    picture_of(gpu, &scene, &square_camera(), [SIZE; 2], settings, 1).expect("a picture")
+    draw_picture(gpu, &PictureRequest::new(&scene, &square_camera(), [SIZE; 2], settings), 1).expect("a picture")
 }
 
 fn pixel(picture: &Picture, x: u32, y: u32) -> [u8; 3] {
@@ -72,14 +72,14 @@ fn marked(gpu: &Gpu, quads: &Quads, lines: &[Mark], triangles: &[Mark]) -> Pictu
     let settings = false_colour(LuxScale { num_parts: 0, ..LuxScale::default() });
     let scene = SceneBuffers::new(gpu, &quads.baked);
     let target = screen(gpu, [SIZE; 2], TextureFormat::Rgba8Unorm);
-    let view = View::from_camera(&square_camera(), 1.0);
+    let request = PictureRequest::new(&scene, &square_camera(), [SIZE; 2], &settings);
     let target_view = target.create_view(&Default::default());
     let mut renderer = hemicube::render::Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
     let mut overlay = OverlayPass::new(gpu, TextureFormat::Rgba8Unorm);
     let marks = Overlay::new(gpu, lines, triangles);
     let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor { label: None });
-    renderer.draw(gpu, &mut encoder, &target_view, [SIZE; 2], &scene, &view, &settings);
-    overlay.draw(gpu, &mut encoder, &target_view, [SIZE; 2], &scene, &view, &settings, &marks);
+    renderer.draw(gpu, &mut encoder, &target_view, &request);
+    overlay.draw(gpu, &mut encoder, &target_view, &request, &marks);
     gpu.queue.submit([encoder.finish()]);
     let display = read_texture(gpu, &target, 4).expect("read");
     Picture { width: SIZE, height: SIZE, radiance: Vec::new(), display }
@@ -120,8 +120,9 @@ fn hidden_instances_are_not_drawn_and_the_others_keep_their_light() {
     let all = SceneBuffers::new(gpu, &quads.baked);
     let part = all.part(gpu, &quads.baked.scene, |triangle| triangle.instance != InstanceId(1));
     let settings = false_colour(LuxScale { num_parts: 0, ..LuxScale::default() });
-    let picture =
-        |scene: &SceneBuffers| picture_of(gpu, scene, &square_camera(), [SIZE; 2], &settings, 1).expect("drawn");
+    let picture = |scene: &SceneBuffers| {
+        draw_picture(gpu, &PictureRequest::new(scene, &square_camera(), [SIZE; 2], &settings), 1).expect("drawn")
+    };
     let (whole, half) = (picture(&all), picture(&part));
     assert_eq!(pixel(&half, SIZE / 4, SIZE / 2), pixel(&whole, SIZE / 4, SIZE / 2));
     assert!(pixel(&half, 3 * SIZE / 4, SIZE / 2).iter().all(|&channel| channel < 3));

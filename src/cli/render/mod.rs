@@ -15,7 +15,7 @@ use anyhow::{Result, bail};
 use super::scene_input::load;
 use super::terminal::Terminal;
 use crate::gpu::Gpu;
-use crate::render::picture_request::check_size;
+use crate::render::headless::check_size;
 use crate::render::{FileKind, Picture, Raster, RenderSettings, picture, tone_map_on_cpu};
 use crate::scene::Scene;
 

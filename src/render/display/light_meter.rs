@@ -13,21 +13,21 @@ const NUM_BINS: u64 = 256;
 /// Invocations of a compute group each way.
 const GROUP: u32 = 16;
 
-/// What is metered.
+/// What the light meter reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Metered {
+pub enum MeterInput {
     /// Radiance and coverage.
     Radiance,
-    /// Luminance, where the picture itself is displayed at once.
+    /// Luminance alone, of a picture whose surface pass writes display colours.
     Luminance,
 }
 
-impl Metered {
-    /// Pixels from one that is looked at to the next, each way.
+impl MeterInput {
+    /// Pixels from one that is counted to the next, each way.
     fn step(self) -> u32 {
         match self {
-            Metered::Radiance => 2,
-            Metered::Luminance => 4,
+            MeterInput::Radiance => 2,
+            MeterInput::Luminance => 4,
         }
     }
 }
@@ -43,8 +43,8 @@ pub struct LightMeter {
 }
 
 impl LightMeter {
-    /// Pipelines, histogram and result.
-    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
+    /// Pipelines and histogram, for a result in `exposure`.
+    pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, exposure: wgpu::Buffer) -> Self {
         let module = METER.module(gpu);
         let layout = bind_group_layout(gpu);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -63,40 +63,40 @@ impl LightMeter {
             })
         };
         Self {
-            count: pipeline("count", &[("STEP", f64::from(Metered::Radiance.step()))]),
+            count: pipeline("count", &[("STEP", f64::from(MeterInput::Radiance.step()))]),
             count_luminance: pipeline(
                 "count",
-                &[("IS_LUMINANCE", 1.0), ("STEP", f64::from(Metered::Luminance.step()))],
+                &[("IS_LUMINANCE", 1.0), ("STEP", f64::from(MeterInput::Luminance.step()))],
             ),
             settle: pipeline("settle", &[]),
             histogram: storage(gpu, "luminance histogram", NUM_BINS * 4),
-            exposure: storage(gpu, "metered exposure", 4),
+            exposure,
             layout,
         }
     }
 
-    /// One f32: displayed = radiance x this.
+    /// One f32: displayed = radiance times this; 0 before anything was metered.
     pub fn exposure(&self) -> &wgpu::Buffer {
         &self.exposure
     }
 
-    /// What is metered from now on becomes the exposure of both.
-    pub fn share(&mut self, other: &Self) {
-        self.exposure = other.exposure.clone();
+    /// The buffer of an exposure that was not metered yet.
+    pub fn new_exposure(gpu: &Gpu) -> wgpu::Buffer {
+        storage(gpu, "metered exposure", 4)
     }
 
-    /// Meters the HDR picture, or that of its luminance.
+    /// Meters the last picture.
     pub fn draw(
         &self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         targets: &Targets,
-        seen: Metered,
+        input: MeterInput,
         frame: &wgpu::BindGroup,
     ) {
-        let (picture, count) = match seen {
-            Metered::Radiance => (&targets.hdr_view, &self.count),
-            Metered::Luminance => (targets.luminance(gpu), &self.count_luminance),
+        let (picture, count) = match input {
+            MeterInput::Radiance => (&targets.hdr_view, &self.count),
+            MeterInput::Luminance => (targets.luminance(gpu), &self.count_luminance),
         };
         let bindings = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("meter"),
@@ -113,7 +113,7 @@ impl LightMeter {
         pass.set_bind_group(0, frame, &[]);
         pass.set_bind_group(1, &bindings, &[]);
         pass.set_pipeline(count);
-        let [columns, rows] = targets.size.map(|side| side.div_ceil(GROUP * seen.step()));
+        let [columns, rows] = targets.size.map(|side| side.div_ceil(GROUP * input.step()));
         pass.dispatch_workgroups(columns, rows, 1);
         pass.set_pipeline(&self.settle);
         pass.dispatch_workgroups(1, 1, 1);

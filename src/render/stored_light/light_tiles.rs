@@ -29,6 +29,19 @@ struct Pipelines {
     beyond: wgpu::ComputePipeline,
 }
 
+/// The light that tiles are filled with.
+#[derive(Clone, Copy)]
+pub struct TileLight<'a> {
+    /// The scene of the tiles.
+    pub scene: &'a SceneBuffers,
+    /// The weights of the parts of its light.
+    pub settings: &'a RenderSettings,
+    /// The light of its vertices, summed over the light groups with these weights.
+    pub weighted: &'a wgpu::Buffer,
+    /// Direct light comes from the lights themselves, so tiles hold none.
+    pub lit_by_lights: bool,
+}
+
 /// Fills tiles.
 pub struct TileFiller {
     layout: wgpu::BindGroupLayout,
@@ -49,19 +62,16 @@ impl TileFiller {
         Self { layout, pipeline_layout, pipelines: HashMap::new() }
     }
 
-    /// Makes the tiles of a scene hold its light as `settings` and its `frame` weigh it: `weighted` is that of the vertices.
-    #[expect(clippy::too_many_arguments, reason = "where to work (encoder, frame) and on what")]
+    /// Fills `tiles` with the light of their scene, unless they hold it already.
     pub fn fill(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         frame: &wgpu::BindGroup,
-        scene: &SceneBuffers,
         tiles: &Tiles,
-        settings: &RenderSettings,
-        weighted: &wgpu::Buffer,
-        lit_by_lights: bool,
+        light: TileLight<'_>,
     ) {
+        let TileLight { scene, settings, weighted, lit_by_lights } = light;
         let wanted = HeldLight { light: scene.light_version(), weights: weights(settings, lit_by_lights) };
         let mut held = tiles.held.lock().unwrap_or_else(PoisonError::into_inner);
         if held.as_ref() == Some(&wanted) {

@@ -5,5 +5,6 @@
 
 pub mod direct_source;
 pub mod pass;
+mod recently_used;
 pub mod targets;
 pub mod variant;

@@ -1,8 +1,7 @@
 //! Surface pass: radiance of every visible point, with the light of the vertices.
 
-use std::collections::HashMap;
-
 use super::direct_source::DirectSource;
+use super::recently_used::RecentlyUsed;
 use super::targets::SurfaceTargets;
 use super::variant::Variant;
 use crate::gpu::Gpu;
@@ -14,26 +13,46 @@ use crate::render::shadow::few_lights::Kinds;
 use crate::render::shadow::real_time::LiveLight;
 use crate::render::targets::HDR_FORMAT;
 
-/// Pipelines that are kept; those of a look are a few, and a software driver keeps a megabyte for each.
+/// Pipelines that are kept. One picture needs a few, and a software driver keeps a megabyte for each (Mesa 22.3).
 const MOST_PIPELINES: usize = 16;
+
+/// What a pipeline depends on: the surface, and the kinds of a few light samples.
+type PipelineKey = (Variant, Option<Kinds>);
+
+/// What the surface pass draws.
+#[derive(Clone, Copy)]
+pub struct SurfaceInput<'a> {
+    /// Bind group 0.
+    pub bindings: &'a wgpu::BindGroup,
+    /// The triangles that may be in view.
+    pub in_view: &'a SceneBuffers,
+    /// What is shown of surfaces.
+    pub settings: &'a RenderSettings,
+    /// The light of the vertices, summed over the light groups.
+    pub stored: &'a wgpu::Buffer,
+    /// The metered exposure, for display colours without a fixed exposure.
+    pub exposure: &'a wgpu::Buffer,
+    /// Direct light from the lights themselves.
+    pub live: Option<&'a LiveLight>,
+}
 
 /// Surface pass.
 pub struct SurfacePass {
     source: DirectSource,
     layout: wgpu::PipelineLayout,
     module: wgpu::ShaderModule,
-    /// For light in tiles, where there may be such.
+    /// The module for light in tiles, if this source of direct light can show tiles.
     tiled_module: Option<wgpu::ShaderModule>,
     samples: u32,
-    /// Made when they are first needed.
-    pipelines: HashMap<(Variant, Option<Kinds>), wgpu::RenderPipeline>,
-    /// Of bind group 1.
+    /// Those that were used last.
+    pipelines: RecentlyUsed<PipelineKey, wgpu::RenderPipeline>,
+    /// Layout of bind group 1.
     light_layout: wgpu::BindGroupLayout,
-    /// Between texels of tiles.
+    /// Interpolates between texels of tiles.
     sampler: wgpu::Sampler,
-    /// Stands where there are no tiles.
+    /// Bound if there are no tiles.
     no_tiles: wgpu::TextureView,
-    /// Of bind group 3, where there is one.
+    /// Layout of bind group 3, if there is one.
     direct_layout: Option<wgpu::BindGroupLayout>,
 }
 
@@ -97,7 +116,7 @@ impl SurfacePass {
             ..Default::default()
         });
         let no_tiles = no_tiles(gpu);
-        let pipelines = HashMap::new();
+        let pipelines = RecentlyUsed::new(MOST_PIPELINES);
         Self {
             source,
             layout,
@@ -112,36 +131,23 @@ impl SurfacePass {
         }
     }
 
-    /// Clears the targets and draws the scene into them, its vertices in the light of `stored`. What is displayed at once without
-    /// a given exposure has the metered one of `exposure`.
-    #[expect(clippy::too_many_arguments, reason = "where to draw (encoder, targets) and what of it")]
+    /// Clears the targets and draws the scene into them.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         targets: &SurfaceTargets<'_>,
-        frame: &wgpu::BindGroup,
-        scene: &SceneBuffers,
-        settings: &RenderSettings,
-        stored: &wgpu::Buffer,
-        exposure: &wgpu::Buffer,
-        live: Option<&LiveLight>,
+        input: SurfaceInput<'_>,
     ) {
+        let SurfaceInput { bindings, in_view: scene, settings, stored, exposure, live } = input;
         let kinds = match live {
             Some(LiveLight::Few(lights)) => Some(lights.kinds),
             _ => None,
         };
         let variant = |batch: &DrawBatch| (Variant::new(batch, settings, targets.output), kinds);
-        if self.pipelines.len() > MOST_PIPELINES {
-            self.pipelines.clear();
-        }
         let tiled = scene.tiled.as_ref().filter(|_| self.source.shows_tiles());
         let (indices, batches) = if tiled.is_some() { scene.coarsest() } else { (&scene.indices, &scene.batches[..]) };
-        for needed in batches.iter().map(variant) {
-            if !self.pipelines.contains_key(&needed) {
-                self.pipelines.insert(needed, self.pipeline(gpu, needed));
-            }
-        }
+        let pipelines: Vec<_> = batches.iter().map(|batch| self.pipeline(gpu, variant(batch))).collect();
         let live = live.and_then(|live| self.bind(gpu, live));
         let tiles = tiled.map_or(&self.no_tiles, |tiled| &tiled.tiles.light);
         let light = gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -157,16 +163,16 @@ impl SurfacePass {
         if live.is_some() {
             pass.set_bind_group(3, &live, &[]);
         }
-        pass.set_bind_group(0, frame, &[]);
+        pass.set_bind_group(0, bindings, &[]);
         pass.set_bind_group(1, &light, &[]);
         if !batches.is_empty() {
             pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
         }
-        for batch in batches {
+        for (batch, pipeline) in batches.iter().zip(&pipelines) {
             let light = tiled.filter(|_| batch.is_tiled).map_or(stored, |tiled| &tiled.places);
             pass.set_vertex_buffer(0, scene.vertices_of(batch).slice(..));
             pass.set_vertex_buffer(1, light.slice(..));
-            pass.set_pipeline(&self.pipelines[&variant(batch)]);
+            pass.set_pipeline(pipeline);
             pass.set_bind_group(2, &scene.materials[batch.material.index()], &[]);
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);
         }
@@ -186,13 +192,20 @@ impl SurfacePass {
         })
     }
 
-    fn pipeline(&self, gpu: &Gpu, (variant, kinds): (Variant, Option<Kinds>)) -> wgpu::RenderPipeline {
+    /// The pipeline of a variant, made if it is not kept.
+    fn pipeline(&mut self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
+        if let Some(kept) = self.pipelines.get(&key) {
+            return kept.clone();
+        }
+        let (variant, kinds) = key;
         let mut constants: Vec<_> = kinds.iter().flat_map(Kinds::constants).collect();
         if self.source == DirectSource::Few {
             constants.push(("ONE_SAMPLE", f64::from(u8::from(self.samples == 1))));
         }
         constants.push(("LIT_BY_LIGHTS", f64::from(u8::from(self.source != DirectSource::Stored))));
         let module = self.tiled_module.as_ref().filter(|_| variant.is_tiled).unwrap_or(&self.module);
-        variant.pipeline(gpu, &self.layout, module, self.samples, constants)
+        let pipeline = variant.pipeline(gpu, &self.layout, module, self.samples, constants);
+        self.pipelines.insert(key, pipeline.clone());
+        pipeline
     }
 }

@@ -200,11 +200,7 @@ impl Canvas {
     }
 
     fn compared_renderer(&mut self, gpu: &Gpu) -> &mut SceneRenderer {
-        self.compared_renderer.get_or_insert_with(|| {
-            let mut compared = SceneRenderer::new(gpu, self.format);
-            compared.follow_exposure(&self.renderer);
-            compared
-        })
+        self.compared_renderer.get_or_insert_with(|| SceneRenderer::following(gpu, self.format, &self.renderer))
     }
 
     fn draw_overlay(
@@ -212,10 +208,10 @@ impl Canvas {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::Texture,
-        PictureContent { scene, view, settings, size, overlay, .. }: &PictureContent,
+        content: &PictureContent,
     ) {
-        if let Some(overlay) = overlay {
-            self.overlay.draw(gpu, encoder, &view_of(target), *size, scene, view, settings, overlay);
+        if let Some(overlay) = &content.overlay {
+            self.overlay.draw(gpu, encoder, &view_of(target), &content.request(), overlay);
         }
     }
 

@@ -1,14 +1,13 @@
 //! Pictures that are written to files.
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 
 use anyhow::Context;
 
 use crate::base::progress::Progress;
 use crate::gpu::Gpu;
 use crate::raytrace::{Ambient, TwoPassSettings, two_pass};
-use crate::render::{Picture, RenderSettings, picture_in_light, tone_map_on_cpu};
+use crate::render::{Picture, PictureRequest, RenderSettings, draw_picture, tone_map_on_cpu};
 use crate::scene::Camera;
 use crate::trace::Tracer;
 use crate::viewer::drawing::scene_renderer::SAMPLES;
@@ -38,8 +37,8 @@ pub fn drawn(
     size: [u32; 2],
     render_settings: &RenderSettings,
 ) -> anyhow::Result<Picture> {
-    let shadows = Some(Arc::clone(&scene.shadows));
-    Ok(picture_in_light(gpu, &scene.buffers, shadows, camera, size, render_settings, SAMPLES)?)
+    let request = PictureRequest::new(&scene.buffers, camera, size, render_settings);
+    Ok(draw_picture(gpu, &PictureRequest { shadows: Some(&scene.shadows), ..request }, SAMPLES)?)
 }
 
 /// Traces the view with `num_rays` rays a pixel; `None` if it was cancelled.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::gpu::{Gpu, Stopwatch};
-use crate::render::{Renderer, ShadowScene};
+use crate::render::{MeteredExposure, Metering, PictureRequest, Renderer};
 use crate::viewer::picture::content::{Detail, PictureContent};
 use crate::viewer::software::software_renderer::SoftwareRenderer;
 
@@ -15,6 +15,8 @@ pub struct SceneRenderer {
     fine: Renderer,
     /// Renderer of the coarse levels of detail on a software driver; `None` on hardware.
     software: Option<SoftwareRenderer>,
+    /// Times passes while the panels show their times.
+    stopwatch: Option<Arc<Stopwatch>>,
     /// The last picture was a sketch.
     is_moving: bool,
 }
@@ -24,9 +26,20 @@ impl SceneRenderer {
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         let fine = Renderer::new(gpu, format, SAMPLES);
+        let software = gpu.tier.is_software().then(|| SoftwareRenderer::new(gpu, format, Metering::Shared(&fine)));
+        Self { fine, software, stopwatch: None, is_moving: false }
+    }
+
+    /// A renderer for textures of `format` that takes the exposure of the pictures that `other` draws at the same level of
+    /// detail.
+    #[must_use]
+    pub fn following(gpu: &Gpu, format: wgpu::TextureFormat, other: &Self) -> Self {
+        let follow =
+            |other: &SoftwareRenderer| SoftwareRenderer::new(gpu, format, Metering::Followed(other.renderer()));
         Self {
-            software: gpu.tier.is_software().then(|| SoftwareRenderer::new(gpu, format, &fine)),
-            fine,
+            fine: Renderer::with_metering(gpu, format, SAMPLES, Metering::Followed(&other.fine)),
+            software: other.software.as_ref().map(follow),
+            stopwatch: None,
             is_moving: false,
         }
     }
@@ -49,17 +62,9 @@ impl SceneRenderer {
         self.software.iter_mut().filter(|_| self.is_moving).for_each(|software| software.note_time(seconds));
     }
 
-    /// From now on takes the exposure of the pictures that `other` draws at the same level of detail.
-    pub fn follow_exposure(&mut self, other: &Self) {
-        self.fine.follow_exposure(&other.fine);
-        if let (Some(software), Some(other)) = (&mut self.software, &other.software) {
-            software.follow_exposure(other);
-        }
-    }
-
-    /// Times passes with `watch`, or stops timing them.
-    pub fn time(&mut self, watch: Option<&Arc<Stopwatch>>) {
-        self.renderers().for_each(|renderer| renderer.time(watch.cloned()));
+    /// Times passes with `stopwatch`, or stops timing them.
+    pub fn time(&mut self, stopwatch: Option<&Arc<Stopwatch>>) {
+        self.stopwatch = stopwatch.cloned();
     }
 
     /// Draws `content` into `target`.
@@ -71,28 +76,21 @@ impl SceneRenderer {
         content: &PictureContent,
         detail: Detail,
     ) {
-        let shadows: &Arc<ShadowScene> = &content.shadows;
-        self.renderers().for_each(|renderer| renderer.cast_shadows(Some(Arc::clone(shadows))));
-        let PictureContent { scene, view, settings, size, .. } = content;
         let was_moving = std::mem::replace(&mut self.is_moving, detail == Detail::Sketch);
-        if let Some(software) = &mut self.software {
-            // Each sketch of a movement is shown at once, with the exposure metered for the one before it.
-            software.renderer().show_last_exposure(was_moving && self.is_moving);
-        }
+        // Each sketch of a movement is shown at once, with the exposure metered for the one before it.
+        let exposure = if was_moving && self.is_moving { MeteredExposure::OfLast } else { MeteredExposure::OfThis };
+        let stopwatch = self.stopwatch.as_deref();
+        let request = PictureRequest { exposure, stopwatch, ..content.request() };
         match (&mut self.software, detail) {
-            (Some(software), Detail::Sketch) => software.sketch(gpu, encoder, target, content, settings),
-            (Some(software), Detail::Plain) => software.draw(gpu, encoder, target, content, settings),
-            _ => self.fine.draw(gpu, encoder, target, *size, scene, view, settings),
+            (Some(software), Detail::Sketch) => software.sketch(gpu, encoder, target, &request),
+            (Some(software), Detail::Plain) => software.draw(gpu, encoder, target, &request),
+            _ => self.fine.draw(gpu, encoder, target, &request),
         }
     }
 
     /// Adds part of the direct light of the next fine picture; draws nothing.
     pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, content: &PictureContent) {
-        self.fine.cast_shadows(Some(Arc::clone(&content.shadows)));
-        self.fine.add_light(gpu, encoder, content.size, &content.scene, &content.view, &content.settings);
-    }
-
-    fn renderers(&mut self) -> impl Iterator<Item = &mut Renderer> {
-        std::iter::once(&mut self.fine).chain(self.software.iter_mut().map(SoftwareRenderer::renderer))
+        let request = PictureRequest { stopwatch: self.stopwatch.as_deref(), ..content.request() };
+        self.fine.add_light(gpu, encoder, &request);
     }
 }

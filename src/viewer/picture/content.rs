@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::render::scene::SceneBuffers;
 use crate::render::shadow::SampleBatch;
-use crate::render::{Overlay, RenderSettings, ShadowScene, ShadowSettings, View};
+use crate::render::{MeteredExposure, Overlay, PictureRequest, RenderSettings, ShadowScene, ShadowSettings, View};
 use crate::viewer::settings::comparison::ComparedShadows;
 
 /// Level of detail of a picture, from coarse to fine.
@@ -42,6 +42,20 @@ pub struct PictureContent {
 }
 
 impl PictureContent {
+    /// The request that draws it, without its overlay.
+    #[must_use]
+    pub fn request(&self) -> PictureRequest<'_> {
+        PictureRequest {
+            size: self.size,
+            scene: &self.scene,
+            shadows: Some(&self.shadows),
+            view: self.view,
+            settings: &self.settings,
+            exposure: MeteredExposure::OfThis,
+            stopwatch: None,
+        }
+    }
+
     /// The same content with other shadows.
     #[must_use]
     pub fn with_shadows(&self, shadows: &ShadowSettings) -> Self {

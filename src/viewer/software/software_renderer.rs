@@ -3,8 +3,7 @@
 use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
 
 use crate::gpu::Gpu;
-use crate::render::{RenderSettings, Renderer};
-use crate::viewer::picture::content::PictureContent;
+use crate::render::{Metering, PictureRequest, Renderer};
 use crate::viewer::picture::texture::{new_texture, view_of};
 use crate::viewer::software::sketch_size::SketchSize;
 
@@ -20,24 +19,18 @@ pub struct SoftwareRenderer {
 }
 
 impl SoftwareRenderer {
-    /// A renderer for textures of `format`. It meters with the light meter of `fine`: the exposure is that of the picture that
-    /// either of them drew last.
+    /// A renderer for textures of `format`, with an automatic exposure from `metering`.
     #[must_use]
-    pub fn new(gpu: &Gpu, format: wgpu::TextureFormat, fine: &Renderer) -> Self {
-        let mut renderer = Renderer::new(gpu, format, 1);
-        renderer.share_meter(fine);
+    pub fn new(gpu: &Gpu, format: wgpu::TextureFormat, metering: Metering<'_>) -> Self {
+        let renderer = Renderer::with_metering(gpu, format, 1, metering);
         let blitter = TextureBlitterBuilder::new(&gpu.device, format).sample_type(wgpu::FilterMode::Linear).build();
         Self { format, renderer, blitter, target: None, sketch_size: SketchSize::default() }
     }
 
     /// The renderer of one sample a pixel.
-    pub fn renderer(&mut self) -> &mut Renderer {
-        &mut self.renderer
-    }
-
-    /// From now on takes the exposure of the pictures that `other` draws.
-    pub fn follow_exposure(&mut self, other: &Self) {
-        self.renderer.follow_exposure(&other.renderer);
+    #[must_use]
+    pub fn renderer(&self) -> &Renderer {
+        &self.renderer
     }
 
     /// Notes the time of the last picture of a movement, seconds.
@@ -51,10 +44,9 @@ impl SoftwareRenderer {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
-        content: &PictureContent,
-        render_settings: &RenderSettings,
+        request: &PictureRequest<'_>,
     ) {
-        self.renderer.draw(gpu, encoder, target, content.size, &content.scene, &content.view, render_settings);
+        self.renderer.draw(gpu, encoder, target, request);
     }
 
     /// Draws a picture of a movement, at half the width and height if that is faster, and then enlarges it into `target`.
@@ -63,18 +55,17 @@ impl SoftwareRenderer {
         gpu: &Gpu,
         encoder: &mut wgpu::CommandEncoder,
         target: &wgpu::TextureView,
-        content: &PictureContent,
-        render_settings: &RenderSettings,
+        request: &PictureRequest<'_>,
     ) {
         if self.sketch_size.is_full() {
-            return self.draw(gpu, encoder, target, content, render_settings);
+            return self.draw(gpu, encoder, target, request);
         }
-        let size = content.size.map(|side| side.div_ceil(2));
+        let size = request.size.map(|side| side.div_ceil(2));
         let (small, _) = match self.target.take() {
             Some(last) if last.1 == size => self.target.insert(last),
             _ => self.target.insert((view_of(&new_texture(gpu, size, self.format)), size)),
         };
-        self.renderer.draw(gpu, encoder, small, size, &content.scene, &content.view, render_settings);
+        self.renderer.draw(gpu, encoder, small, &PictureRequest { size, ..*request });
         self.blitter.copy(&gpu.device, encoder, small, target);
     }
 }

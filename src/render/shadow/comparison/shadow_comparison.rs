@@ -94,7 +94,7 @@ impl ShadowComparison {
         let ComparedScene { scene, shadows, view, size } = compared;
         let render_settings = &RenderSettings::default();
         let bindings = &frame_bind_group(gpu, &self.layout, scene, view, render_settings);
-        let in_view = &scene.in_view(gpu, &view.cull_view(render_settings));
+        let in_view = &scene.in_view(gpu, &view.cull_view(render_settings.cull_back));
         // The last call may have been for another scene.
         self.light.clear_scene();
         let frame =

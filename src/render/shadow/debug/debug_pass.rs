@@ -10,7 +10,7 @@ use crate::render::shadow::real_time::RealTimeLight;
 use crate::render::shadow::settings::ShadowSettings;
 use crate::render::shadow::shared::frame_context::FrameContext;
 use crate::render::shadow::technique::ShadowTechnique;
-use crate::render::{Overlay, OverlayPass};
+use crate::render::{MeteredExposure, Overlay, OverlayPass, PictureRequest};
 
 /// Draws debug views into pictures of one format.
 pub struct DebugPass {
@@ -105,7 +105,9 @@ impl DebugPass {
             let Marks { lines, triangles } = Marks::new(frame.shadows, &key);
             (key, Overlay::new(frame.gpu, &lines, &triangles))
         }));
-        let FrameContext { gpu, size, scene, view, render_settings, .. } = frame;
-        self.overlay.draw(gpu, encoder, target, size, scene, view, render_settings, marks);
+        let FrameContext { gpu, size, scene, view, render_settings: settings, .. } = frame;
+        let exposure = MeteredExposure::OfThis;
+        let request = PictureRequest { size, scene, shadows: None, view: *view, settings, exposure, stopwatch: None };
+        self.overlay.draw(gpu, encoder, target, &request, marks);
     }
 }
