@@ -133,7 +133,10 @@ impl Names {
         if path.len() > 1 || before == "." && is_call {
             self.called.extend(path.last().cloned());
         }
-        if names_an_item && !matches!(before, "." | "::") {
+        // `pub(in path)` limits who sees an item and uses nothing.
+        let is_visibility =
+            before == "in" && at > 2 && text_at(tokens, at - 2) == "(" && text_at(tokens, at - 3) == "pub";
+        if names_an_item && !is_visibility && !matches!(before, "." | "::") {
             self.mentions.push(scope.seen_from_file(path));
         }
         end

@@ -45,6 +45,13 @@ fn a_sideways_import_is_caught() {
 }
 
 #[test]
+fn a_visibility_is_no_import() {
+    let root = ("lib.rs", "pub mod bake;\npub use bake::bake;");
+    let child = ("bake/clock.rs", "pub(in crate::bake) struct Clock;");
+    assert_eq!(upward(&[root, ("bake/mod.rs", "mod clock;\npub fn bake() {}"), child]), 0);
+}
+
+#[test]
 fn a_downward_import_passes() {
     let below = [("scene/mod.rs", "pub struct Scene;"), ("base/ids.rs", "pub struct Id;"), ("base/mod.rs", "")];
     let with = |text| upward(&[&below[..], &[("radiosity/mod.rs", text)]].concat());
