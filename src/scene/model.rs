@@ -95,6 +95,21 @@ impl Scene {
         Bounds::around(positions).unwrap_or(Bounds { low: Vec3::ZERO, high: Vec3::ONE })
     }
 
+    /// The triangles that are not backs, so that every surface occurs once.
+    pub fn fronts(&self) -> impl Iterator<Item = TriangleId> + '_ {
+        (0..self.triangles.len()).map(TriangleId::new).filter(|&triangle| !self.sides.is_back(triangle))
+    }
+
+    /// The triangle that stores the light of the front or back side of `front`, and the barycentric coordinates in it of the
+    /// point with `weights` in the front.
+    #[must_use]
+    pub fn on_side(&self, front: TriangleId, weights: Vec3, is_front: bool) -> (TriangleId, Vec3) {
+        match self.sides.back_of(front) {
+            Some(back) if !is_front => (back.triangle, back.weights(weights)),
+            _ => (front, weights),
+        }
+    }
+
     /// Sum of all triangle areas, square metres.
     #[must_use]
     pub fn area(&self) -> f64 {

@@ -1,20 +1,20 @@
-//! The sides of surfaces: which triangles are backs, and whose.
+//! Pairs of front and back triangles of double-sided surfaces.
 //!
-//! A double-sided triangle of a file is one triangle, which rays and shadows meet from both sides. A bake stores light on
-//! either side, so it writes the back as a triangle of its own, over vertices with flipped normals and in the opposite winding.
-//! Rays, casters of shadows and collision must meet the surface once: they take [`Scene::fronts`].
+//! A double-sided triangle of a file is one triangle, which rays and shadows hit from both sides. A bake stores light on each
+//! side, so it writes the back as a triangle of its own, over vertices with flipped normals and in the opposite winding.
+//! Rays, shadow casters and collision must hit the surface once, so they use
+//! [`Scene::fronts`](super::Scene::fronts) only.
 
 use glam::Vec3;
 
-use super::model::Scene;
 use crate::base::ids::TriangleId;
 
-/// Which triangles of a scene are the backs of others.
+/// The triangles of a scene that are backs of others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sides {
-    /// By triangle `[t]`; triangles beyond its end are fronts.
+    /// Whether a triangle is a back `[t]`; triangles beyond the end are fronts.
     is_back: Vec<bool>,
-    /// Fronts with their backs, in the order of the fronts.
+    /// Fronts with their backs, sorted by front.
     pairs: Vec<(TriangleId, Back)>,
 }
 
@@ -43,14 +43,14 @@ impl Back {
 }
 
 impl Sides {
-    /// Makes a triangle a back, whose front is not known.
+    /// Marks a triangle as a back of an unknown front.
     pub fn add_back(&mut self, triangle: TriangleId) {
         let num_known = self.is_back.len().max(triangle.index() + 1);
         self.is_back.resize(num_known, false);
         self.is_back[triangle.index()] = true;
     }
 
-    /// Makes triangles the backs of fronts.
+    /// Adds pairs of a front and its back.
     pub fn add_pairs(&mut self, pairs: impl IntoIterator<Item = (TriangleId, Back)>) {
         for (front, back) in pairs {
             self.add_back(back.triangle);
@@ -59,45 +59,29 @@ impl Sides {
         self.pairs.sort_unstable_by_key(|(front, _)| *front);
     }
 
-    /// The triangle is the back of a double-sided surface.
+    /// Whether the triangle is the back of a double-sided surface.
     #[must_use]
     pub fn is_back(&self, triangle: TriangleId) -> bool {
         self.is_back.get(triangle.index()).is_some_and(|&is_back| is_back)
     }
 
-    /// There is a back.
+    /// Whether the scene has any back.
     #[must_use]
     pub fn has_backs(&self) -> bool {
         self.is_back.contains(&true)
     }
 
-    /// The back of a front triangle. `None` if it has none, or none that is known.
+    /// The back of a front triangle; `None` if it has no known back.
     #[must_use]
     pub fn back_of(&self, front: TriangleId) -> Option<Back> {
         let found = self.pairs.binary_search_by_key(&front, |(front, _)| *front).ok()?;
         Some(self.pairs[found].1)
     }
 
-    /// Number of backs whose front is not known.
+    /// Number of backs of unknown fronts.
     #[must_use]
     pub fn num_unpaired(&self) -> usize {
         self.is_back.iter().filter(|&&is_back| is_back).count() - self.pairs.len()
-    }
-}
-
-impl Scene {
-    /// The triangles that are not backs: every surface once.
-    pub fn fronts(&self) -> impl Iterator<Item = TriangleId> + '_ {
-        (0..self.triangles.len()).map(TriangleId::new).filter(|&triangle| !self.sides.is_back(triangle))
-    }
-
-    /// The triangle that stores the light of one side of a front, and barycentric coordinates there.
-    #[must_use]
-    pub fn on_side(&self, front: TriangleId, weights: Vec3, is_front: bool) -> (TriangleId, Vec3) {
-        match self.sides.back_of(front) {
-            Some(back) if !is_front => (back.triangle, back.weights(weights)),
-            _ => (front, weights),
-        }
     }
 }
 
