@@ -3,6 +3,7 @@
 
 mod support;
 
+mod documents;
 mod floors;
 mod lightmap;
 mod mirrors;
