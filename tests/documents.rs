@@ -30,7 +30,9 @@ fn linked_files(text: &str) -> impl Iterator<Item = &str> {
 fn named_sources(text: &str) -> impl Iterator<Item = &str> {
     let code = text.split('`').skip(1).step_by(2);
     let is_path = |word: &&str| word.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));
-    let is_source = |word: &&str| [".rs", ".wgsl", "/"].iter().any(|end| word.strip_suffix(end).is_some_and(|path| path.contains('/')));
+    let is_source = |word: &&str| {
+        [".rs", ".wgsl", "/"].iter().any(|end| word.strip_suffix(end).is_some_and(|path| path.contains('/')))
+    };
     code.filter(move |word| is_path(word) && is_source(word))
 }
 

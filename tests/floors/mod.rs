@@ -15,7 +15,7 @@ use imports::{Imports, Sources};
 use crate::support::sources::files_below;
 
 /// Folders whose files may still form a circle. An entry without one fails: this list only gets shorter.
-const KNOWN_CIRCLES: &[&str] = &["baked/gltf", "lightmap", "scene", "viewer"];
+const KNOWN_CIRCLES: &[&str] = &["baked/gltf", "lightmap", "scene"];
 
 /// Folders that may still hold too many files.
 const KNOWN_CROWDS: &[&str] = &[];
