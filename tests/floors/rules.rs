@@ -93,11 +93,11 @@ pub fn upward_imports(imports: &Imports) -> Vec<String> {
 }
 
 /// Files in a folder that stands on no floor.
-pub fn homeless(sources: &Sources) -> Vec<String> {
-    let is_homeless = |file: &&String| {
+pub fn misplaced_files(sources: &Sources) -> Vec<String> {
+    let is_misplaced = |file: &&String| {
         !ENTRANCES.contains(&file.as_str()) && FLOORS.iter().all(|(part, _)| *part != house_part(file))
     };
-    sources.keys().filter(is_homeless).map(|file| format!("{file} stands on no floor")).collect()
+    sources.keys().filter(is_misplaced).map(|file| format!("{file} stands on no floor")).collect()
 }
 
 /// Imports of a room that is not lower, inside of the folders that `rooms` divides.

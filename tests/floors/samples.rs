@@ -62,7 +62,10 @@ fn a_downward_import_passes() {
 
 #[test]
 fn a_folder_on_no_floor_is_caught() {
-    assert_eq!(rules::homeless(&sources(&[("attic/mod.rs", ""), ("main.rs", ""), ("scene/mod.rs", "")])).len(), 1);
+    assert_eq!(
+        rules::misplaced_files(&sources(&[("attic/mod.rs", ""), ("main.rs", ""), ("scene/mod.rs", "")])).len(),
+        1
+    );
 }
 
 #[test]
