@@ -6,6 +6,7 @@ use clap::Parser;
 use hemicube::cli::{self, Cli};
 
 fn main() -> ExitCode {
+    cli::runtime_dir::set_runtime_dir();
     let cli = Cli::parse();
     env_logger::Builder::new().filter_level(cli.verbosity.level()).format_timestamp(None).init();
     match cli::run(&cli) {

@@ -62,6 +62,23 @@ fn errors_name_the_option_at_fault() {
 }
 
 #[test]
+fn a_quiet_command_without_a_desktop_prints_nothing() {
+    if gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let output = Command::new(env!("CARGO_BIN_EXE_hemicube"))
+        .args(["--quiet", "render", "builtin:cornell", "--lighting", "ambient", "--size", "8x8", "-o", "a.png"])
+        .current_dir(folder.path())
+        .env_remove("XDG_RUNTIME_DIR")
+        .env_remove("WAYLAND_DISPLAY")
+        .output()
+        .expect("the program runs");
+    let printed = [&output.stdout, &output.stderr].map(|bytes| String::from_utf8_lossy(bytes));
+    assert!(output.status.success() && printed.iter().all(|text| text.is_empty()), "{printed:?}");
+}
+
+#[test]
 fn traced_pictures_need_no_gpu_and_are_the_same_each_time() {
     let folder = tempfile::tempdir().expect("a folder");
     let bytes = |file: &str| {

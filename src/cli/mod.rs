@@ -8,6 +8,7 @@ mod lightmap_export;
 mod lit_scene;
 mod measure;
 mod render;
+pub mod runtime_dir;
 mod scene_input;
 mod terminal;
 mod value;

@@ -3,6 +3,7 @@
 mod at_once;
 mod display;
 mod files;
+mod lost_device;
 mod radiance;
 mod relit;
 mod sides;
