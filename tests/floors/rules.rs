@@ -7,7 +7,7 @@ use super::imports::{Imports, Sources, Uses};
 use super::tokens::{text_at, tokens};
 
 /// Height of each folder directly below src/. A file uses lower folders and its own; equals never use each other.
-const FLOORS: [(&str, f32); 15] = [
+const FLOORS: [(&str, f32); 14] = [
     ("base", 0.0),
     ("scene", 1.0),
     ("gpu", 1.0),
@@ -21,7 +21,6 @@ const FLOORS: [(&str, f32); 15] = [
     ("render", 3.0),
     ("radiosity", 4.0),
     ("bake", 5.0),
-    ("measure", 5.0),
     ("viewer", 6.0),
     ("cli", 7.0),
 ];
