@@ -101,7 +101,7 @@ pub fn bake_with(scene: &Scene, settings: &BakeSettings, context: &BakeContext<'
     clock.end_stage(Stage::Solve);
 
     // 4. Gather the indirect light of the vertices, with more of them where it changes.
-    let gathered = lighting.gather(sources, &mut subdivision, &lit, &viewpoints, solved.radiosity.as_ref())?;
+    let gathered = lighting.gather(sources, &mut subdivision, &lit, &viewpoints, solved.radiosity)?;
     let (num_gathered, backface_share) = (gathered.num_hemicubes, gathered.backface_share);
     let hidden_vertices = gathered.num_hidden();
     let (mesh, baked) = gathered.put_on_mesh(scene, lit, &solved.solution, settings);

@@ -15,6 +15,15 @@ use glam::Vec3;
 ///
 /// The part of the polygon below the horizon is clipped.
 ///
+/// ```
+/// use glam::Vec3;
+/// use hemicube::form_factor::point_to_polygon;
+///
+/// let far = 1e4;
+/// let sky = [(-far, -far), (far, -far), (far, far), (-far, far)].map(|(x, y)| Vec3::new(x, y, 1.0));
+/// assert!((point_to_polygon(Vec3::ZERO, Vec3::Z, &sky) - 1.0).abs() < 1e-4);
+/// ```
+///
 /// Equation: F = 1 / (2 pi) x |sum over edges of angle_k x (normal . unit(a_k x b_k))|.
 ///
 /// Accuracy: about 1e-6 absolute, rounding only.

@@ -22,8 +22,37 @@ pub enum FormFactorError {
 /// A method that computes rows of form factors over the elements of one mesh.
 ///
 /// [`Hemicubes`](super::hemicube::Hemicubes) and [`Hemispheres`](super::hemisphere::Hemispheres) implement it. A method of
-/// your own can drive every solver in [`radiosity`](crate::radiosity): a row only has to hold, for each element in view, the
-/// form factor F(viewpoint, element), and entries, backs and sky have to sum to 1.
+/// your own can drive every solver in the `radiosity` module: a row only has to hold, for each element in view, the form
+/// factor F(viewpoint, element), and entries, backs and sky have to sum to 1.
+///
+/// ```
+/// use hemicube::form_factor::{FormFactorError, FormFactorSource, Row, Viewpoint, map_rows};
+///
+/// /// Every view ends in the sky.
+/// struct EmptyScene;
+///
+/// impl FormFactorSource for EmptyScene {
+///     fn rows(
+///         &mut self,
+///         viewpoints: &[Viewpoint],
+///         may_continue: &dyn Fn() -> bool,
+///         visit: &(dyn Fn(usize, &Row) + Sync),
+///     ) -> Result<usize, FormFactorError> {
+///         let num_rows = if may_continue() { viewpoints.len() } else { 0 };
+///         (0..num_rows).for_each(|index| visit(index, &Row { sky: 1.0, ..Row::default() }));
+///         Ok(num_rows)
+///     }
+///
+///     fn num_samples(&self) -> usize {
+///         1
+///     }
+/// }
+///
+/// let up = Viewpoint { position: glam::Vec3::ZERO, normal: glam::Vec3::Y, seed: 0 };
+/// let sky = map_rows(&mut EmptyScene, &[up], &|| true, |_, row| row.sky)?;
+/// assert_eq!(sky, [1.0]);
+/// # Ok::<(), FormFactorError>(())
+/// ```
 pub trait FormFactorSource {
     /// Computes the rows of `viewpoints` in batches and passes each to `visit` with its index, possibly in parallel.
     ///

@@ -64,12 +64,12 @@ impl<'a> VertexLighting<'a> {
         subdivision: &mut AdaptiveSubdivision<'_>,
         lit: &LitMesh,
         viewpoints: &Viewpoints,
-        radiosity: Option<&Field>,
+        radiosity: Option<Field>,
     ) -> Result<VertexGather, BakeError> {
         let Some(radiosity) = radiosity else { return Ok(VertexGather::unknown(lit)) };
         let viewpoints = viewpoints.at_light_vertices(&lit.mesh);
         let mut source = sources.for_vertices(self.settings);
-        let mut final_gather = FinalGather::new(&lit.mesh, radiosity, self.gather);
+        let mut final_gather = FinalGather::new(&lit.mesh, &radiosity, self.gather);
         let mut gathered = final_gather.at(&mut *source, &viewpoints, self.observer)?;
         let mut refined = None;
         if !self.observer.is_cancelled() {

@@ -35,6 +35,17 @@ const TOLERANCE: f64 = 1e-8;
 impl PolygonPair {
     /// The exact form factor, to the error of the quadrature.
     ///
+    /// ```
+    /// use hemicube::form_factor::polygon_pair::{Polygon, PolygonPair};
+    ///
+    /// let square = |corners: [[f64; 3]; 4]| Polygon::new(corners.map(Into::into).to_vec());
+    /// let floor = square([[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]])?;
+    /// let ceiling = square([[0., 1., 1.], [1., 1., 1.], [1., 0., 1.], [0., 0., 1.]])?;
+    /// let estimate = PolygonPair { a: floor, b: ceiling, blocker: None }.analytic();
+    /// assert!((estimate.factor - 0.199_825).abs() < 1e-6);
+    /// # Ok::<(), hemicube::form_factor::polygon_pair::PolygonError>(())
+    /// ```
+    ///
     /// Equation: F = F(A, B) - 1/A x integral over A of the point-to-polygon form factor of the part of B in the blocker's
     /// shadow.
     #[must_use]

@@ -27,7 +27,7 @@ const MAX_SWEEPS: usize = 1000;
 /// The matrix is too large.
 #[derive(Debug, Error)]
 #[error(
-    "a full matrix of {num_patches} patches takes {gib:.1} GiB, more than {max_gib} GiB; take the progressive solver",
+    "a full matrix of {num_patches} patches takes {gib:.1} GiB, more than {max_gib} GiB; use the progressive solver",
     max_gib = MAX_BYTES >> 30
 )]
 pub struct MatrixTooLarge {
