@@ -100,25 +100,29 @@ impl<'a> DirectLight<'a> {
             groups[light.group.index()] += self.punctual_irradiance(light, viewpoint);
         }
         self.emitters.find_candidates(viewpoint.position, viewpoint.normal, candidates);
+        let receiver = Receiver { lights: self, viewpoint, candidates };
         // A few rays to each emitter show which are wholly visible or hidden, and how bright the viewpoint is.
         let num_pilot_rays = (self.num_penumbra_rays / PILOT_SHARE).clamp(PILOT_RAYS[0], PILOT_RAYS[1]);
         visibilities.clear();
-        visibilities.extend(candidates.candidates.iter().map(|candidate| {
+        visibilities.extend(receiver.candidates.list.iter().map(|candidate| {
             let mut visibility = Visibility::default();
-            self.trace_rays(candidates, candidate, viewpoint, num_pilot_rays, &mut visibility);
+            receiver.trace_rays(candidate, num_pilot_rays, &mut visibility);
             visibility
         }));
         let punctual: f32 = groups.iter().map(|value| luminance(*value)).sum();
         let visible =
             |(candidate, visibility): (&Candidate, &Visibility)| luminance(candidate.unoccluded) * visibility.share();
-        let total = punctual + candidates.candidates.iter().zip(&*visibilities).map(visible).sum::<f32>();
+        let total = punctual + receiver.candidates.list.iter().zip(&*visibilities).map(visible).sum::<f32>();
         // More rays go to emitters that are partly hidden.
-        for (candidate, visibility) in candidates.candidates.iter().zip(visibilities) {
-            self.refine(candidates, candidate, viewpoint, CONVERGED * total, visibility);
+        for (candidate, visibility) in receiver.candidates.list.iter().zip(visibilities) {
+            receiver.refine(candidate, CONVERGED * total, visibility);
             groups[candidate.group.index()] += candidate.unoccluded * visibility.share();
         }
     }
 
+    /// Irradiance from a punctual light.
+    ///
+    /// Equation: E = I cos theta / r^2 (directional light: E cos theta), times the transmittance along the ray.
     fn punctual_irradiance(&self, light: &Light, viewpoint: &Viewpoint) -> Vec3 {
         let arrival = light.arrival(viewpoint.position);
         let cosine = viewpoint.normal.dot(arrival.to_light);
@@ -128,21 +132,24 @@ impl<'a> DirectLight<'a> {
         let passing = self.tracer.transmittance(viewpoint.position, arrival.to_light, arrival.distance);
         arrival.irradiance * (cosine * passing)
     }
+}
 
+/// A viewpoint and the emitters that it samples.
+struct Receiver<'a> {
+    lights: &'a DirectLight<'a>,
+    viewpoint: &'a Viewpoint,
+    candidates: &'a Candidates,
+}
+
+impl Receiver<'_> {
     /// Doubles the rays to a partly hidden emitter until they change its luminance by less than `error`.
-    fn refine(
-        &self,
-        candidates: &Candidates,
-        candidate: &Candidate,
-        viewpoint: &Viewpoint,
-        error: f32,
-        visibility: &mut Visibility,
-    ) {
+    fn refine(&self, candidate: &Candidate, error: f32, visibility: &mut Visibility) {
         let unoccluded = luminance(candidate.unoccluded);
-        while !visibility.is_unanimous() && visibility.num_rays < self.num_penumbra_rays {
+        let max_rays = self.lights.num_penumbra_rays;
+        while !visibility.is_unanimous() && visibility.num_rays < max_rays {
             let before = visibility.share();
-            let num_rays = (2 * visibility.num_rays).min(self.num_penumbra_rays);
-            self.trace_rays(candidates, candidate, viewpoint, num_rays, visibility);
+            let num_rays = (2 * visibility.num_rays).min(max_rays);
+            self.trace_rays(candidate, num_rays, visibility);
             if unoccluded * (visibility.share() - before).abs() < error {
                 break;
             }
@@ -150,24 +157,18 @@ impl<'a> DirectLight<'a> {
     }
 
     /// Traces rays to points of an emitter, weighted by their contribution, until there are `num_rays`.
-    fn trace_rays(
-        &self,
-        candidates: &Candidates,
-        candidate: &Candidate,
-        viewpoint: &Viewpoint,
-        num_rays: u32,
-        visibility: &mut Visibility,
-    ) {
+    fn trace_rays(&self, candidate: &Candidate, num_rays: u32, visibility: &mut Visibility) {
         if candidate.unoccluded.max_element() <= NEGLIGIBLE {
             return;
         }
-        let from = (viewpoint.position, viewpoint.normal, hash(viewpoint.seed));
+        let Viewpoint { position, normal, seed } = *self.viewpoint;
+        let from = (position, normal, hash(seed));
         for index in visibility.num_rays..num_rays {
-            let sample = self.emitters.sample(candidates, candidate, index, from);
+            let sample = self.lights.emitters.sample(self.candidates, candidate, index, from);
             if sample.weight > 0.0 {
                 // The ray ends slightly before the emitter.
-                let to_emitter = sample.point - viewpoint.position;
-                let passing = self.tracer.transmittance(viewpoint.position, to_emitter, 1.0 - 1e-4);
+                let to_emitter = sample.point - position;
+                let passing = self.lights.tracer.transmittance(position, to_emitter, 1.0 - 1e-4);
                 visibility.passing += sample.weight * passing;
                 visibility.total += sample.weight;
             }

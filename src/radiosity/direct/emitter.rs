@@ -46,7 +46,7 @@ struct EmitterTriangle {
 /// The emitters that one viewpoint samples; reused from viewpoint to viewpoint to keep its memory.
 #[derive(Default)]
 pub(super) struct Candidates {
-    pub candidates: Vec<Candidate>,
+    pub list: Vec<Candidate>,
     /// Triangles of all candidates, each candidate's in one range.
     triangles: Vec<Contribution>,
     /// Emitters above the horizon: index, unoccluded irradiance, range of their contributions.
@@ -177,7 +177,7 @@ impl Emitters {
 
 impl Candidates {
     fn clear(&mut self) {
-        self.candidates.clear();
+        self.list.clear();
         self.triangles.clear();
         self.facing.clear();
         self.contributions.clear();
@@ -186,20 +186,20 @@ impl Candidates {
     /// Adds an emitter as a candidate, or to the last candidate if both are pooled and of one group.
     fn add(&mut self, group: GroupId, sum: Vec3, contributions: Range<usize>, pooled: bool) {
         let start = self.triangles.len();
-        let joins = pooled && self.candidates.last().is_some_and(|last| last.group == group && last.is_pool);
+        let joins = pooled && self.list.last().is_some_and(|last| last.group == group && last.is_pool);
         let mut cumulative = if joins { self.triangles[start - 1].cumulative } else { 0.0 };
         for contribution in &self.contributions[contributions] {
             cumulative += contribution.luminance;
             self.triangles.push(Contribution { cumulative, ..*contribution });
         }
-        match self.candidates.last_mut().filter(|_| joins) {
+        match self.list.last_mut().filter(|_| joins) {
             Some(pool) => {
                 pool.unoccluded += sum;
                 pool.triangles.end = self.triangles.len();
             }
             None => {
                 let triangles = start..self.triangles.len();
-                self.candidates.push(Candidate { group, unoccluded: sum, triangles, is_pool: pooled });
+                self.list.push(Candidate { group, unoccluded: sum, triangles, is_pool: pooled });
             }
         }
     }
