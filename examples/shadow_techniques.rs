@@ -14,16 +14,6 @@ use hemicube::{BakedScene, Gpu, RenderSettings, ShadowSettings, ShadowTechnique,
 /// Width and height of the pictures, pixels.
 const SIZE: [u32; 2] = [320, 240];
 
-/// The techniques with the names of their pictures.
-const TECHNIQUES: [(ShadowTechnique, &str); 6] = [
-    (ShadowTechnique::None, "none"),
-    (ShadowTechnique::Map, "map"),
-    (ShadowTechnique::VolumeDepthPass, "volume-depth-pass"),
-    (ShadowTechnique::VolumeDepthFail, "volume-depth-fail"),
-    (ShadowTechnique::Planar, "planar"),
-    (ShadowTechnique::Raytraced, "raytraced"),
-];
-
 fn main() -> Result<(), Box<dyn Error>> {
     // Any Vulkan or Metal device will do, a software driver included.
     let gpu = match Gpu::headless() {
@@ -40,8 +30,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     let baked = BakedScene::dark(builtin::cornell());
     let camera = baked.scene.cameras.first().ok_or("the scene has a camera")?.clone();
 
-    for (technique, name) in TECHNIQUES {
-        let shadows = ShadowSettings { light_samples: 4, ..ShadowSettings::new(technique) };
+    for info in ShadowTechnique::ALL {
+        let shadows = ShadowSettings { light_samples: 4, ..ShadowSettings::new(info.technique) };
         let settings =
             RenderSettings { exposure: Exposure::Ev(1.0), shadows: Some(shadows), ..RenderSettings::default() };
         let start = Instant::now();
@@ -51,9 +41,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         // The mean radiance falls by what is in shadow.
         let mean = picture.radiance.iter().map(|[r, g, b, _]| (r + g + b) / 3.0).sum::<f32>();
         let mean = mean / picture.radiance.len() as f32;
-        let path = folder.join(format!("{}.png", name));
+        let path = folder.join(format!("{}.png", info.name));
         picture.save(&path)?;
-        println!("{:20} mean radiance {mean:.3} nit, {milliseconds:5.0} ms: {}", name, path.display());
+        println!("{:20} mean radiance {mean:.3} nit, {milliseconds:5.0} ms: {}", info.title, path.display());
     }
     Ok(())
 }

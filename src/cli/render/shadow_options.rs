@@ -1,9 +1,9 @@
 //! Options of `hemicube render` about shadows.
 
 use anyhow::Result;
-use clap::{Args, ValueEnum};
+use clap::Args;
 
-use crate::cli::value::radius;
+use crate::cli::value::{one_of, radius};
 use crate::render::shadow::{DebugView, ShadowDebug};
 use crate::render::{ShadowSettings, ShadowTechnique};
 
@@ -12,8 +12,8 @@ use crate::render::{ShadowSettings, ShadowTechnique};
 pub struct ShadowOptions {
     /// Adds direct light in real time, with shadows by this technique, to the indirect light of the bake; with
     /// --lighting ambient or direct no bake is needed.
-    #[arg(long, value_enum, value_name = "TECHNIQUE")]
-    pub shadows: Option<TechniqueName>,
+    #[arg(long, value_name = "TECHNIQUE", value_parser = one_of(techniques()))]
+    pub shadows: Option<ShadowTechnique>,
     /// Number of light samples on each lamp that has a size, 1 to 256; many make soft shadows.
     #[arg(long, value_name = "N", default_value = "1", value_parser = clap::value_parser!(u32).range(1..=256))]
     pub light_samples: u32,
@@ -21,85 +21,35 @@ pub struct ShadowOptions {
     #[arg(long, value_name = "M", default_value = "0", value_parser = radius)]
     pub light_radius: f32,
     /// Draws a debug view of the shadows of one light sample over the picture.
-    #[arg(long, value_enum, value_name = "VIEW", conflicts_with_all = ["compare_shadows", "reference"])]
-    pub shadow_debug: Option<DebugName>,
+    #[arg(long, value_name = "VIEW", conflicts_with_all = ["compare_shadows", "reference"],
+          value_parser = one_of(DebugView::ALL.map(|info| (info.view, info.name, info.hint))))]
+    pub shadow_debug: Option<DebugView>,
     /// Index of the light sample that --shadow-debug shows.
     #[arg(long, value_name = "N", default_value = "0", requires = "shadow_debug")]
     pub shadow_debug_light: usize,
     /// Draws where the shadows of techniques A and B differ, and prints the share of these pixels; pixels next to a
     /// shadow edge (of the ray-traced technique, else of B) do not count.
-    #[arg(long, value_name = "A,B", value_enum, value_delimiter = ',', num_args = 1, conflicts_with_all = ["shadows", "reference"])]
-    pub compare_shadows: Option<Vec<TechniqueName>>,
+    #[arg(long, value_name = "A,B", value_delimiter = ',', num_args = 1, conflicts_with_all = ["shadows", "reference"],
+          value_parser = one_of(techniques()))]
+    pub compare_shadows: Option<Vec<ShadowTechnique>>,
 }
 
-/// Techniques as written on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum TechniqueName {
-    /// Light passes through everything.
-    None,
-    /// Depth seen from the light.
-    Map,
-    /// Stencil volumes counted in front of what is seen.
-    VolumeDepthPass,
-    /// Stencil volumes counted behind what is seen.
-    VolumeDepthFail,
-    /// Casters flattened on to the largest planes.
-    Planar,
-    /// One ray a pixel: the truth.
-    Raytraced,
-}
-
-/// Debug views as written on the command line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum DebugName {
-    /// In how many shadow volumes, or under how many planar shadows, each point is.
-    StencilCounts,
-    /// Sides of the shadow volumes as translucent hulls.
-    Volumes,
-    /// Edges at which the light sees casters end.
-    Silhouettes,
-    /// Depth in the faces of the shadow map: near is bright, nothing is blue.
-    Map,
-    /// Planes that receive planar shadows, outlined.
-    Receivers,
-}
-
-impl DebugName {
-    fn view(self) -> DebugView {
-        match self {
-            DebugName::StencilCounts => DebugView::StencilCounts,
-            DebugName::Volumes => DebugView::Volumes,
-            DebugName::Silhouettes => DebugView::Silhouettes,
-            DebugName::Map => DebugView::Map,
-            DebugName::Receivers => DebugView::Receivers,
-        }
-    }
-}
-
-impl TechniqueName {
-    fn technique(self) -> ShadowTechnique {
-        match self {
-            TechniqueName::None => ShadowTechnique::None,
-            TechniqueName::Map => ShadowTechnique::Map,
-            TechniqueName::VolumeDepthPass => ShadowTechnique::VolumeDepthPass,
-            TechniqueName::VolumeDepthFail => ShadowTechnique::VolumeDepthFail,
-            TechniqueName::Planar => ShadowTechnique::Planar,
-            TechniqueName::Raytraced => ShadowTechnique::Raytraced,
-        }
-    }
+/// The table of techniques for [`one_of`].
+fn techniques() -> [(ShadowTechnique, &'static str, &'static str); ShadowTechnique::ALL.len()] {
+    ShadowTechnique::ALL.map(|info| (info.technique, info.name, info.hint))
 }
 
 impl ShadowOptions {
     /// Settings of the shadows; `None` without --shadows.
     #[must_use]
     pub fn settings(&self) -> Option<ShadowSettings> {
-        self.shadows.map(|name| self.settings_of(name))
+        self.shadows.map(|technique| self.settings_of(technique))
     }
 
     /// The debug view, if one is wanted.
     #[must_use]
     pub fn debug(&self) -> Option<ShadowDebug> {
-        self.shadow_debug.map(|name| ShadowDebug { view: name.view(), light: self.shadow_debug_light })
+        self.shadow_debug.map(|view| ShadowDebug { view, light: self.shadow_debug_light })
     }
 
     /// Settings of the two techniques to compare; `None` without --compare-shadows.
@@ -114,8 +64,8 @@ impl ShadowOptions {
         }
     }
 
-    fn settings_of(&self, name: TechniqueName) -> ShadowSettings {
+    fn settings_of(&self, technique: ShadowTechnique) -> ShadowSettings {
         let (light_samples, light_radius) = (self.light_samples, self.light_radius);
-        ShadowSettings { light_samples, light_radius, ..ShadowSettings::new(name.technique()) }
+        ShadowSettings { light_samples, light_radius, ..ShadowSettings::new(technique) }
     }
 }

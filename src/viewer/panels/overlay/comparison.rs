@@ -5,7 +5,6 @@ use egui::{Align2, Area, Color32, CursorIcon, FontId, Id, Order, Painter, Pos2, 
 use super::super::chrome::theme;
 use super::super::chrome::widgets::named;
 use super::super::facts::Facts;
-use super::super::picture::shadows::name_of;
 use crate::render::shadow::DebugView;
 use crate::render::shadow::debug::count_colour;
 use crate::viewer::settings::comparison::ComparisonLayout;
@@ -31,7 +30,7 @@ pub fn comparison_ui(ui: &mut Ui, free: Rect, light: &mut LightSettings, facts: 
     let painter = ui.painter_at(free);
     let mut line = free.top() + TOP;
     if let Some(compared) = light.compared_technique.filter(|_| light.is_real_time) {
-        let [a, b] = [light.shadows.technique, compared].map(name_of);
+        let [a, b] = [light.shadows.technique, compared].map(|technique| technique.info().title);
         match light.comparison_layout {
             ComparisonLayout::Split => {
                 let at = divider_ui(ui, free, &mut light.divider);

@@ -2,4 +2,5 @@
 
 pub mod light;
 pub mod shadows;
+mod technique;
 pub mod view;
