@@ -5,7 +5,7 @@ use gltf::json::camera::{Camera as CameraDefinition, Type as CameraType};
 use gltf::json::validation::Checked;
 
 use super::error::Cause;
-use super::node::frame::frame;
+use super::node::tree::frame;
 use crate::scene::{Camera, Projection};
 
 /// The camera at its position in the world; scale and mirroring of its node are ignored.

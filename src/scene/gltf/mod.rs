@@ -1,8 +1,8 @@
 //! The glTF loader: reads a .gltf or .glb file into a validated [`Scene`](crate::scene::Scene).
 //!
-//! `load` runs these steps, a room each:
+//! `load` runs these steps, each in a module of its own:
 //!
-//! | room | step |
+//! | module | step |
 //! |---|---|
 //! | `file` | bytes to JSON, buffers and accessors; checks every index and every range |
 //! | `node` | the node tree to a list of nodes with their world transforms; `budget` bounds the size of the scene |

@@ -134,7 +134,7 @@ impl<'a> Reader<'a> {
     /// Elements of the given rows (ascending) as vectors of `N` numbers.
     ///
     /// # Errors
-    /// Returns an error if the elements have not `N` components, a row is out of range, or a number is not finite.
+    /// Returns an error if the elements do not have `N` components, a row is out of range, or a number is not finite.
     pub fn vectors<const N: usize>(&self, rows: &[u32]) -> Result<Vec<[f32; N]>, Cause> {
         if self.width != N {
             return Err(self.failed(format!("elements of {} numbers where {N} are required", self.width)));

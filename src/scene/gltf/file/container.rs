@@ -24,7 +24,7 @@ pub(crate) struct Parts<'a> {
 /// Splits a .gltf or .glb file into its parts.
 ///
 /// # Errors
-/// Returns an error if the file is no glTF 2 or is cut off.
+/// Returns an error if the file is not glTF 2 or is cut off.
 pub(crate) fn split(bytes: &[u8]) -> Result<Parts<'_>, Cause> {
     if !bytes.starts_with(b"glTF") {
         return parse_json(bytes, None);

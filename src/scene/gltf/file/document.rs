@@ -33,7 +33,7 @@ impl<'a> Document<'a> {
     /// Parses a file and reads its buffers. A buffer that cannot be read is an error only when it is used.
     ///
     /// # Errors
-    /// Returns an error if the file is no glTF 2 or is cut off.
+    /// Returns an error if the file is not glTF 2 or is cut off.
     pub fn parse(bytes: &'a [u8], folder: Option<&'a Path>) -> Result<Self, Cause> {
         let Parts { root, skins, blob } = container::split(bytes)?;
         let mut left = MAX_EXTERNAL_BYTES;

@@ -15,7 +15,7 @@ use crate::scene::Light;
 use crate::scene::gltf::error::Cause;
 use crate::scene::gltf::file::document::Document;
 use crate::scene::gltf::file::resource;
-use crate::scene::gltf::node::frame::frame;
+use crate::scene::gltf::node::tree::frame;
 use crate::scene::photometry::{self, Photometry, Profile};
 
 /// Name of the extension.

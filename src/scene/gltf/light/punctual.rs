@@ -5,7 +5,7 @@ use gltf::json::extensions::scene::khr_lights_punctual::Type as LightType;
 use gltf::json::validation::Checked;
 
 use crate::scene::gltf::error::Cause;
-use crate::scene::gltf::node::frame::frame;
+use crate::scene::gltf::node::tree::frame;
 use crate::scene::{Light, LightKind};
 
 pub(crate) use gltf::json::extensions::scene::khr_lights_punctual::Light as LightDefinition;

@@ -38,7 +38,7 @@ pub(crate) struct MaterialReader<'a> {
     pub textures: TextureTable,
     /// Messages to the user.
     pub notes: Vec<String>,
-    /// Texture coordinate sets of each material in the two sets of a vertex `[m]`.
+    /// The file's texture coordinate sets that the two sets of a vertex hold, by material `[m]`.
     pub uv_sets: Vec<[u32; 2]>,
     /// Texture coordinate sets of the material that is being read.
     vertex_sets: [Option<u32>; 2],

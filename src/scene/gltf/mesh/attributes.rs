@@ -17,6 +17,12 @@ use crate::scene::{Vertex, VertexAttribute};
 /// Prefix of the names of baked light attributes, after the underscore.
 const IRRADIANCE: &str = "IRRADIANCE_";
 
+/// Most sets of four joints per vertex.
+const MAX_SETS: u32 = 4;
+
+/// Index of a joint in its skin, and its weight.
+pub(crate) type Influence = (usize, f32);
+
 /// Vertex attributes of a primitive.
 pub(crate) struct Attributes<'a> {
     document: &'a Document<'a>,
@@ -107,5 +113,27 @@ impl<'a> Attributes<'a> {
             colour: colours.as_ref().map_or(Vec4::ONE, |colours| colours[v]),
         };
         Ok((positions.into_iter().enumerate().map(vertex).collect(), normals.is_some()))
+    }
+
+    /// Influences of each vertex: JOINTS_n with WEIGHTS_n, without those of weight zero; empty if the primitive has no
+    /// joints.
+    ///
+    /// Source: glTF 2.0, section 3.7.3.3.
+    ///
+    /// # Errors
+    /// Returns an error if an accessor cannot be read.
+    pub(super) fn influences(&self, rows: &[u32]) -> Result<Vec<Vec<Influence>>, Cause> {
+        let mut influences = Vec::new();
+        for set in 0..MAX_SETS {
+            let joints = self.vectors::<4>(Semantic::Joints(set), rows)?;
+            let weights = self.vectors::<4>(Semantic::Weights(set), rows)?;
+            let Some((joints, weights)) = joints.zip(weights) else { break };
+            influences.resize(rows.len(), Vec::new());
+            for (vertex, (joints, weights)) in influences.iter_mut().zip(joints.into_iter().zip(weights)) {
+                let pairs = joints.map(|joint| joint as usize).into_iter().zip(weights);
+                vertex.extend(pairs.filter(|&(_, weight)| weight > 0.0));
+            }
+        }
+        Ok(influences)
     }
 }

@@ -1,11 +1,11 @@
 //! A mesh primitive in mesh space: vertices and separate triangles, whatever the topology in the file.
 
+use glam::DMat3;
 use gltf::json::Extras;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 
-use super::attributes::Attributes;
-use super::influences::{self, Influence};
+use super::attributes::{Attributes, Influence};
 use super::topology::{keep_used, triangulate};
 use super::{draco, morph};
 use crate::scene::gltf::error::Cause;
@@ -63,7 +63,7 @@ impl Geometry {
             triangles,
             has_normals,
             irradiance: attributes.irradiance(&rows)?,
-            influences: influences::influences(&attributes, &rows)?,
+            influences: attributes.influences(&rows)?,
             is_back: is_marked_back_side(&primitive.extras),
         }))
     }
@@ -78,6 +78,14 @@ fn dangling_vertex(primitive: &Primitive, row: u32) -> Cause {
 fn is_marked_back_side(extras: &Extras) -> bool {
     let value = extras.as_ref().and_then(|raw| serde_json::from_str::<serde_json::Value>(raw.get()).ok());
     value.is_some_and(|value| value["back_side"] == true)
+}
+
+/// Matrix that transforms normals: the inverse transpose of `linear` up to a positive factor. It is computed from
+/// cofactors, so it exists for singular transforms, too.
+pub(crate) fn normal_matrix(linear: DMat3) -> DMat3 {
+    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = linear;
+    let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
+    DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y)) * sign
 }
 
 #[cfg(test)]

@@ -6,10 +6,8 @@
 mod attributes;
 mod draco;
 mod geometry;
-mod influences;
 pub(super) mod meshes;
 mod morph;
-mod normals;
 mod placement;
 mod skin;
 mod topology;

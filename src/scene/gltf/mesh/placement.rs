@@ -2,8 +2,7 @@
 
 use glam::{DAffine3, Vec3};
 
-use super::geometry::Geometry;
-use super::normals::normal_matrix;
+use super::geometry::{Geometry, normal_matrix};
 use crate::base::ids::{InstanceId, MaterialId, TriangleId};
 use crate::scene::gltf::error::Cause;
 use crate::scene::{Instance, Scene, Triangle, Vertex, VertexAttribute, is_degenerate, is_placeable, normal_of};

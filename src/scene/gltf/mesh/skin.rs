@@ -12,9 +12,8 @@ use gltf::json;
 use gltf::json::{Index, Node};
 use serde::Deserialize;
 
-use super::geometry::Geometry;
-use super::influences::Influence;
-use super::normals::normal_matrix;
+use super::attributes::Influence;
+use super::geometry::{Geometry, normal_matrix};
 use crate::scene::gltf::error::Cause;
 use crate::scene::gltf::file::accessor::Reader;
 use crate::scene::gltf::file::document::Document;

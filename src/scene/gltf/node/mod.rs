@@ -1,5 +1,4 @@
 //! The node tree: the visible nodes with their world transforms, and the transforms of instanced meshes.
 
-pub(super) mod frame;
 pub(super) mod instancing;
 pub(super) mod tree;

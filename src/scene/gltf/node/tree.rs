@@ -1,6 +1,6 @@
 //! Flattening of the node tree: every visible node with its world transform.
 
-use glam::DAffine3;
+use glam::{DAffine3, DMat3, DVec3};
 use gltf::json::{Index, Node};
 
 use crate::scene::Transform;
@@ -93,6 +93,15 @@ pub(crate) fn transform(node: &Node) -> Transform {
 pub(crate) fn name_of(names: [&Option<String>; 2], kind: &str, index: usize) -> String {
     let given = names.into_iter().flatten().find(|name| !name.trim().is_empty());
     given.cloned().unwrap_or_else(|| format!("{kind} {index}"))
+}
+
+/// Orientation of a node without its scale, shear and mirroring, for lights and cameras: right-handed orthonormal axes,
+/// the node's +Z exactly, and its +Y made perpendicular to it.
+pub(crate) fn frame(world_from_node: DAffine3) -> DMat3 {
+    let z = world_from_node.matrix3.z_axis.try_normalize().unwrap_or(DVec3::Z);
+    let across = world_from_node.matrix3.y_axis.cross(z);
+    let x = across.try_normalize().unwrap_or_else(|| z.any_orthonormal_vector());
+    DMat3::from_cols(x, z.cross(x), z)
 }
 
 #[cfg(test)]
