@@ -22,7 +22,7 @@ pub enum Tool {
 
 /// The tools of the tool bar with their names and hints.
 pub const TOOLS: [(Tool, &str, &str); 5] = [
-    (Tool::Look, "RenderSettings", "A click captures the mouse for looking around (Esc)"),
+    (Tool::Look, "Look", "A click captures the mouse for looking around (Esc)"),
     (Tool::Meter, "Measure", "A click measures the light at a point (M)"),
     (Tool::Grid, "Grid", "A click measures a whole flat surface (G)"),
     (Tool::PatchView, "View from", "A click shows the view from that patch (N)"),
