@@ -3,12 +3,8 @@
 use glam::Vec3;
 use hemicube::bake::{BakeContext, BakeSettings, Method, Quality, Refinement, Solver, bake, bake_with};
 use hemicube::base::colour::luminance;
-use hemicube::base::ids::{ElementId, GroupId};
-use hemicube::form_factor::{Entry, Row};
+use hemicube::base::ids::GroupId;
 use hemicube::gpu::Gpu;
-use hemicube::patch::{MeshSettings, PatchMesh};
-use hemicube::radiosity::Field;
-use hemicube::radiosity::gather::NearField;
 use hemicube::scene::{Light, SceneBuilder, builtin};
 
 use crate::support::device::gpu;
@@ -164,39 +160,4 @@ fn each_gathering_pass_adds_one_reflection() {
         }
         assert_eq!(bake.report.work.passes, passes);
     }
-}
-
-#[test]
-fn near_elements_reflect_the_light_of_their_vertices_and_far_ones_that_of_their_patch() {
-    let scene = scenes::furnace(Vec3::splat(0.5), Vec3::ONE);
-    let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.3, patch_size: 0.5 }).unwrap();
-    let radiosity = Field::from_values(1, vec![Vec3::ONE; mesh.elements.len()]);
-    let received = Field::from_values(1, vec![Vec3::splat(4.0); mesh.light_vertices.len()]);
-    let nothing = Field::zero(mesh.light_vertices.len(), 1);
-    // Just below the middle of the ceiling, which fills the view: rho x 4 = 2 is reflected there and not 1.
-    let (reach, height) = (0.5, 0.1);
-    let place = Vec3::new(0.5, 1.0 - height, 0.5);
-    let above = mesh.elements.iter().position(|element| {
-        let [a, b, c] = mesh.corners(element);
-        a.y == 1.0 && b.y == 1.0 && c.y == 1.0 && [a, b, c].iter().any(|p| (p.x, p.z) == (0.5, 0.5))
-    });
-    let row = |element: usize| Row {
-        entries: vec![Entry { element: ElementId::new(element), factor: 1.0 }],
-        ..Row::default()
-    };
-    let mut near_field = NearField::new(&mesh, &radiosity, reach);
-    let (near, nearest) = near_field.near_elements(&row(above.expect("the ceiling")), place);
-    assert!((nearest - height).abs() < 1e-6, "{nearest}");
-    let corrected = |near_field: &NearField<'_>| {
-        let mut irradiance = [Vec3::ONE];
-        near_field.correct(&near, place, &mut irradiance);
-        irradiance[0].x
-    };
-    assert_eq!(corrected(&near_field), 1.0);
-    near_field.set_vertex_light(&received, &nothing, &vec![true; mesh.light_vertices.len()]);
-    let expected = 1.0 + (1.0 - height / reach);
-    assert!((corrected(&near_field) - expected).abs() < 1e-5, "{} for {expected}", corrected(&near_field));
-    // The floor is beyond the reach of the near field.
-    let floor = mesh.elements.iter().position(|element| mesh.corners(element).iter().all(|p| p.y == 0.0));
-    assert!(near_field.near_elements(&row(floor.expect("the floor")), place).0.is_empty());
 }

@@ -1,7 +1,7 @@
 //! The final gather: hemicubes at a sparse set of viewpoints, interpolation between them.
 //!
 //! E(x) = sum over elements e of F(x, e) B_e is evaluated at *records*, the viewpoints that the
-//! [irradiance cache](super::IrradianceCache) finds too far from all others. The set grows densest where light changes fast.
+//! [irradiance cache](super::irradiance_cache) finds too far from all others. The set grows densest where light changes fast.
 //!
 //! Source: Wallace, Elmquist, Haines 1989 (radiosity at vertices); Lischinski, Tampieri, Greenberg 1993 (final gather of
 //! a radiosity solution).

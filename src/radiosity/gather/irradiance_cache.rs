@@ -43,7 +43,7 @@ const MAX_LEVEL: usize = 15;
 
 /// Records in grids of halving cell sizes, each in the grid whose cells are about as large as its neighbourhood.
 #[derive(Debug)]
-pub struct IrradianceCache {
+pub(super) struct IrradianceCache {
     /// Error up to which a record suffices.
     tolerance: f32,
     max_radius: f32,
@@ -52,7 +52,6 @@ pub struct IrradianceCache {
 
 impl IrradianceCache {
     /// An empty cache; the radius of a record is at most `max_radius` metres.
-    #[must_use]
     pub fn new(tolerance: f32, max_radius: f32) -> Self {
         Self { tolerance, max_radius, levels: Vec::new() }
     }
@@ -80,7 +79,6 @@ impl IrradianceCache {
     }
 
     /// True if a record is close enough for `viewpoint` to need none of its own.
-    #[must_use]
     pub fn covers(&self, viewpoint: &Viewpoint) -> bool {
         self.nearby(viewpoint).any(|record| self.error(record, viewpoint).is_some_and(|error| error < self.tolerance))
     }

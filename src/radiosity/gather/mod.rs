@@ -1,8 +1,8 @@
 //! Final gather: indirect irradiance at the vertices, from hemicubes or hemispheres over the solved elements.
 //!
-//! [`FinalGather`] places them at a sparse set of vertices, which the [`irradiance cache`](IrradianceCache) chooses; the
-//! vertices between are interpolated. [`SamplingNoise`] decides how many one vertex needs, and [`NearField`] corrects the
-//! light of elements close by.
+//! [`FinalGather`] places them at a sparse set of vertices, which the irradiance cache chooses; the
+//! vertices between are interpolated. The sampling noise around a vertex decides how many it needs, and the near field is
+//! corrected: the light of elements close by.
 
 mod final_gather;
 mod irradiance_cache;
@@ -12,6 +12,4 @@ mod sampled_view;
 mod sampling_noise;
 
 pub use final_gather::{FinalGather, FinalGatherSettings, GatheredLight};
-pub use irradiance_cache::IrradianceCache;
-pub use near_field::{NearElement, NearField};
-pub use sampling_noise::{SamplingNoise, irradiance_and_variance};
+pub use sampling_noise::irradiance_and_variance;

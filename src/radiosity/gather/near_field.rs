@@ -22,7 +22,7 @@ use crate::radiosity::reconstruction::fill_hidden;
 const NEGLIGIBLE: f32 = 5e-3;
 
 /// Corrects what viewpoints gather from elements close by.
-pub struct NearField<'a> {
+pub(super) struct NearField<'a> {
     mesh: &'a PatchMesh,
     /// Reflected radiosity `[e][g]` as it is gathered without correction.
     radiosity: &'a Field,
@@ -33,11 +33,10 @@ pub struct NearField<'a> {
 }
 
 /// An element close to a viewpoint, and the part of its form factor that is corrected: F (1 - distance / reach).
-pub type NearElement = (ElementId, f32);
+pub(super) type NearElement = (ElementId, f32);
 
 impl<'a> NearField<'a> {
     /// Without light at vertices yet: nothing is corrected.
-    #[must_use]
     pub fn new(mesh: &'a PatchMesh, radiosity: &'a Field, reach: f32) -> Self {
         Self { mesh, radiosity, reach, light: None }
     }
@@ -52,7 +51,6 @@ impl<'a> NearField<'a> {
     }
 
     /// The elements of a row that are close to `point`, and the distance of the nearest point of any surface in the row.
-    #[must_use]
     pub fn near_elements(&self, row: &Row, point: Vec3) -> (Vec<NearElement>, f32) {
         let (mut near, mut nearest) = (Vec::new(), f32::MAX);
         // The exact distance if it may matter, else infinity.
@@ -92,5 +90,51 @@ impl<'a> NearField<'a> {
                 *sum += part * (element.reflectance * received - self.radiosity.at(e.index())[g]);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::form_factor::Entry;
+    use crate::patch::MeshSettings;
+    use crate::scene::{Material, SceneBuilder};
+
+    #[test]
+    fn near_elements_reflect_the_light_of_their_vertices_and_far_ones_that_of_their_patch() {
+        let mut builder = SceneBuilder::default();
+        let grey = builder.material(Material::diffuse(Vec3::splat(0.5)));
+        builder.room(Vec3::ZERO, Vec3::ONE, [grey; 6]);
+        let scene = builder.build();
+        let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.3, patch_size: 0.5 }).expect("a small mesh");
+        let radiosity = Field::from_values(1, vec![Vec3::ONE; mesh.elements.len()]);
+        let received = Field::from_values(1, vec![Vec3::splat(4.0); mesh.light_vertices.len()]);
+        let nothing = Field::zero(mesh.light_vertices.len(), 1);
+        // Just below the middle of the ceiling, which fills the view: rho x 4 = 2 is reflected there and not 1.
+        let (reach, height) = (0.5, 0.1);
+        let point = Vec3::new(0.5, 1.0 - height, 0.5);
+        let above = mesh.elements.iter().position(|element| {
+            let [a, b, c] = mesh.corners(element);
+            a.y == 1.0 && b.y == 1.0 && c.y == 1.0 && [a, b, c].iter().any(|p| (p.x, p.z) == (0.5, 0.5))
+        });
+        let row = |element: usize| Row {
+            entries: vec![Entry { element: ElementId::new(element), factor: 1.0 }],
+            ..Row::default()
+        };
+        let mut near_field = NearField::new(&mesh, &radiosity, reach);
+        let (near, nearest) = near_field.near_elements(&row(above.expect("the ceiling")), point);
+        assert!((nearest - height).abs() < 1e-6, "{nearest}");
+        let corrected = |near_field: &NearField<'_>| {
+            let mut irradiance = [Vec3::ONE];
+            near_field.correct(&near, point, &mut irradiance);
+            irradiance[0].x
+        };
+        assert_eq!(corrected(&near_field), 1.0);
+        near_field.set_vertex_light(&received, &nothing, &vec![true; mesh.light_vertices.len()]);
+        let expected = 1.0 + (1.0 - height / reach);
+        assert!((corrected(&near_field) - expected).abs() < 1e-5, "{} for {expected}", corrected(&near_field));
+        // The floor is beyond the reach of the near field.
+        let floor = mesh.elements.iter().position(|element| mesh.corners(element).iter().all(|p| p.y == 0.0));
+        assert!(near_field.near_elements(&row(floor.expect("the floor")), point).0.is_empty());
     }
 }

@@ -28,7 +28,7 @@ type Cell = (IVec3, IVec3);
 
 /// The noise of the hemicubes so far, cell by cell.
 #[derive(Debug)]
-pub struct SamplingNoise {
+pub(super) struct SamplingNoise {
     /// Accepted standard deviation, relative to the irradiance.
     tolerance: f32,
     /// Width of a cell, metres.
@@ -60,13 +60,11 @@ impl Sums {
 
 impl SamplingNoise {
     /// Without hemicubes yet; viewpoints within a cell of `width` metres count as equally noisy.
-    #[must_use]
     pub fn new(tolerance: f32, width: f32) -> Self {
         Self { tolerance, width, cells: FxHashMap::default(), all: Sums::default() }
     }
 
     /// Number of hemicubes whose mean has the accepted noise at a viewpoint; 1 if its cell has none yet.
-    #[must_use]
     pub fn num_hemicubes(&self, viewpoint: &Viewpoint) -> u32 {
         let Some(sums) = self.cells.get(&self.cell(viewpoint)) else { return 1 };
         let irradiance = sums.mean_irradiance().max(FLOOR * self.all.mean_irradiance());
@@ -116,4 +114,32 @@ pub fn irradiance_and_variance(row: &Row, radiosity: &Field, num_samples: f32) -
     }
     end(factor, flux);
     (irradiance, variance)
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+
+    use super::*;
+
+    #[test]
+    fn neighbours_decide_how_many_hemicubes_a_viewpoint_has() {
+        let viewpoint = |x: f32, normal: Vec3| Viewpoint { position: Vec3::new(x, 0.1, 0.1), normal, seed: 0 };
+        let mut noise = SamplingNoise::new(0.1, 1.0);
+        noise.add(&viewpoint(0.2, Vec3::Y), 3.0, 0.05);
+        noise.add(&viewpoint(0.4, Vec3::Y), 1.0, 0.27);
+        assert_eq!(noise.num_hemicubes(&viewpoint(0.8, Vec3::Y)), 4);
+        assert_eq!(noise.num_hemicubes(&viewpoint(1.2, Vec3::Y)), 1, "too far away");
+        assert_eq!(noise.num_hemicubes(&viewpoint(0.8, Vec3::X)), 1, "faces another way");
+        noise.add(&viewpoint(1.5, Vec3::Y), 2.0, 4.0);
+        assert_eq!(noise.num_hemicubes(&viewpoint(1.2, Vec3::Y)), 16, "never more than the limit");
+    }
+
+    #[test]
+    fn an_infinite_variance_gives_a_number_of_hemicubes_within_the_limits() {
+        let viewpoint = Viewpoint { position: Vec3::ZERO, normal: Vec3::Y, seed: 0 };
+        let mut noise = SamplingNoise::new(0.1, 1.0);
+        noise.add(&viewpoint, 1e25, f32::INFINITY);
+        assert!((1..=16).contains(&noise.num_hemicubes(&viewpoint)));
+    }
 }
