@@ -17,6 +17,17 @@ const SAMPLES: u32 = 4;
 
 /// Uploads a bake and draws a picture of `size` pixels with smooth edges.
 ///
+/// ```no_run
+/// use hemicube::scene::builtin;
+/// use hemicube::{BakeSettings, Gpu, Quality, RenderSettings, bake, picture};
+///
+/// let baked = bake(&builtin::cornell(), &BakeSettings::preset(Quality::Draft))?.baked;
+/// let camera = &baked.scene.cameras[0];
+/// let picture = picture(&Gpu::headless()?, &baked, camera, [640, 480], &RenderSettings::default())?;
+/// picture.save("cornell.png".as_ref())?;
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
 /// # Errors
 /// Returns an error if the size is more than the GPU can draw, or if the device was lost.
 pub fn picture(

@@ -5,10 +5,10 @@ mod options;
 mod patch_view;
 mod picture_comparison;
 mod ray_options;
-mod request;
 mod shadow_comparison;
 mod shadow_options;
 mod traced;
+mod view_request;
 
 use anyhow::{Result, bail};
 
@@ -24,8 +24,8 @@ pub use options::RenderArgs;
 use patch_view::write_patch_view;
 use picture_comparison::compare_with_reference;
 use ray_options::RendererName;
-use request::PictureRequest;
 use shadow_comparison::compare_shadows;
+use view_request::ViewRequest;
 
 /// Makes the picture, writes it and compares it with the reference.
 ///
@@ -45,7 +45,7 @@ pub fn run(args: &RenderArgs, terminal: Terminal) -> Result<()> {
     if let Some(at) = &args.hemicube_at {
         return write_patch_view(scene, at, args, terminal);
     }
-    let request = PictureRequest::new(&scene, args)?;
+    let request = ViewRequest::new(&scene, args)?;
     if let Some(techniques) = args.shadows.compared()? {
         let gpu = Gpu::headless()?;
         check_size(&gpu, request.size)?;
@@ -60,7 +60,7 @@ pub fn run(args: &RenderArgs, terminal: Terminal) -> Result<()> {
 }
 
 /// Makes the picture with the chosen renderer.
-fn make_picture(scene: Scene, request: &PictureRequest, args: &RenderArgs, terminal: Terminal) -> Result<Picture> {
+fn make_picture(scene: Scene, request: &ViewRequest, args: &RenderArgs, terminal: Terminal) -> Result<Picture> {
     match args.rays.renderer {
         RendererName::Raster => {
             let gpu = Gpu::headless()?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use anyhow::Result;
 
-use super::request::PictureRequest;
+use super::view_request::ViewRequest;
 use crate::baked::BakedScene;
 use crate::gpu::Gpu;
 use crate::render::scene::SceneBuffers;
@@ -19,7 +19,7 @@ use crate::render::{ShadowScene, ShadowSettings, View, save_display};
 pub fn compare_shadows(
     gpu: &Gpu,
     baked: BakedScene,
-    request: &PictureRequest,
+    request: &ViewRequest,
     [a, b]: &[ShadowSettings; 2],
     output: &Path,
 ) -> Result<()> {

@@ -5,7 +5,7 @@ use glam::Vec3;
 
 use super::options::Lighting;
 use super::ray_options::RayOptions;
-use super::request::PictureRequest;
+use super::view_request::ViewRequest;
 use crate::baked::BakedScene;
 use crate::base::progress::Progress as _;
 use crate::cli::terminal::{Terminal, TerminalWatch};
@@ -22,7 +22,7 @@ const MAX_SIDE: u32 = 16384;
 /// Returns an error if the picture is too large or the user stops it.
 pub fn two_pass(
     baked: &BakedScene,
-    request: &PictureRequest,
+    request: &ViewRequest,
     options: &RayOptions,
     ambient: Vec3,
     terminal: Terminal,
@@ -44,7 +44,7 @@ pub fn two_pass(
 ///
 /// # Errors
 /// Returns an error if the picture is too large, the lighting is ambient, or the user stops it.
-pub fn path_traced(scene: &Scene, request: &PictureRequest, options: &RayOptions, terminal: Terminal) -> Result<Film> {
+pub fn path_traced(scene: &Scene, request: &ViewRequest, options: &RayOptions, terminal: Terminal) -> Result<Film> {
     let max_bounces = match request.lighting {
         Lighting::Direct => 1,
         Lighting::Ambient => bail!("--renderer path traces all light: there is no ambient light in it"),

@@ -28,6 +28,12 @@ pub struct LoadOptions {
 
 /// Loads a .gltf or .glb file; `FILE#NAME` or `FILE#1` selects one of its scenes by name or index.
 ///
+/// ```no_run
+/// let scene = hemicube::load("house.glb#Ground floor".as_ref())?;
+/// println!("{}: {} triangles, {:.1} m2", scene.name, scene.triangles.len(), scene.area());
+/// # Ok::<(), hemicube::scene::gltf::LoadError>(())
+/// ```
+///
 /// # Errors
 /// Returns an error if the file cannot be read or is not valid glTF 2.0; its message is one line with the file and the
 /// cause.

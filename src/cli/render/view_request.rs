@@ -1,13 +1,13 @@
-//! Which picture is made.
+//! Which view of a scene is drawn.
 
 use anyhow::{Context, Result};
 
 use super::options::{Lighting, RenderArgs};
 use crate::scene::{Camera, Scene};
 
-/// A picture to make, whichever renderer makes it.
+/// A view to draw, by rasterisation or by rays.
 #[derive(Clone, Debug)]
-pub struct PictureRequest {
+pub struct ViewRequest {
     /// Camera of the picture.
     pub camera: Camera,
     /// Width and height, pixels.
@@ -16,8 +16,8 @@ pub struct PictureRequest {
     pub lighting: Lighting,
 }
 
-impl PictureRequest {
-    /// The picture that the options describe.
+impl ViewRequest {
+    /// The view that the options describe.
     ///
     /// # Errors
     /// Returns an error if the scene has no such camera.
