@@ -68,7 +68,7 @@ fn a_quiet_command_without_a_desktop_prints_nothing() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let output = Command::new(env!("CARGO_BIN_EXE_hemicube"))
-        .args(["--quiet", "render", "builtin:cornell", "--lighting", "ambient", "--size", "8x8", "-o", "a.png"])
+        .args(["render", "builtin:cornell", "--lighting", "ambient", "--size", "8x8", "-o", "a.png", "--quiet"])
         .current_dir(folder.path())
         .env_remove("XDG_RUNTIME_DIR")
         .env_remove("WAYLAND_DISPLAY")
