@@ -44,10 +44,10 @@ fn main() -> anyhow::Result<()> {
 fn bench(gpu: &Gpu, scene: Scene) {
     println!("{}: {} triangles, {} lights", scene.name, scene.triangles.len(), scene.lights.len());
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
-    let baked = BakedScene { scene, light };
+    let baked = BakedScene::new(scene, light);
     let spot = with_one_spot(baked.scene.clone());
     let light = VertexLight::dark(1, spot.vertices.len());
-    let under_spot = Stage::new(gpu, BakedScene { scene: spot, light });
+    let under_spot = Stage::new(gpu, BakedScene::new(spot, light));
     let mut stage = Stage::new(gpu, baked);
     // First, before the machine is hot.
     let map = ShadowSettings::new(ShadowTechnique::Map);

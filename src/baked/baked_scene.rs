@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use super::bisection_trees::BisectionTrees;
 use crate::base::ids::TriangleId;
 use crate::patch::PatchMesh;
 use crate::scene::{Back, Instance, Scene, Sides, Triangle};
@@ -13,6 +14,8 @@ pub struct BakedScene {
     pub scene: Scene,
     /// Light at the vertices of `scene`.
     pub light: VertexLight,
+    /// Bisection trees whose leaves are the triangles of `scene`. `None` if they are not known.
+    pub trees: Option<BisectionTrees>,
 }
 
 /// Irradiance at vertices, direct and indirect apart, by light group.
@@ -32,10 +35,17 @@ pub struct GroupLight {
 }
 
 impl BakedScene {
-    /// A scene as its file describes it, without light.
+    /// A scene with light at its vertices.
+    #[must_use]
+    pub fn new(scene: Scene, light: VertexLight) -> Self {
+        Self { scene, light, trees: None }
+    }
+
+    /// A scene without light.
     #[must_use]
     pub fn dark(scene: Scene) -> Self {
-        Self { light: VertexLight::dark(scene.light_groups.len(), scene.vertices.len()), scene }
+        let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
+        Self::new(scene, light)
     }
 
     /// The elements of a mesh of `scene` as triangles, without light.
@@ -65,11 +75,12 @@ impl BakedScene {
             cameras: scene.cameras.clone(),
             light_groups: scene.light_groups.clone(),
             irradiance: Vec::new(),
+            element_records: Vec::new(),
             notes: scene.notes.clone(),
             variants: Vec::new(),
             dropped_triangles: scene.dropped_triangles,
         };
-        Self::dark(scene)
+        Self { trees: Some(BisectionTrees::of_mesh(mesh)), ..Self::dark(scene) }
     }
 }
 

@@ -73,7 +73,7 @@ mod tests {
         }
         let scene = builder.build();
         let indirect = vec![Vec3::ZERO; direct.len()];
-        BakedScene { scene, light: VertexLight { groups: vec![GroupLight { direct, indirect }] } }
+        BakedScene::new(scene, VertexLight { groups: vec![GroupLight { direct, indirect }] })
     }
 
     #[test]

@@ -31,7 +31,6 @@ impl Node {
     }
 
     /// Apex and index of the first of two children of a node that is not regular.
-    #[expect(dead_code)]
     pub(crate) fn as_split(self) -> Option<(usize, usize)> {
         (self.0 & 3 != 0).then(|| ((self.0 & 3) as usize - 1, (self.0 >> 2) as usize))
     }

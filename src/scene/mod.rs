@@ -23,7 +23,7 @@ mod triangle;
 pub use camera::{Camera, Projection};
 pub use light::{Arrival, Light, LightKind};
 pub use material::{AlphaMode, MAX_REFLECTANCE, Material, SurfacePoint};
-pub use model::{Instance, Scene, VertexAttribute};
+pub use model::{ElementRecord, Instance, Scene, VertexAttribute};
 pub use node::{NamedNode, Transform};
 pub use photometry::Profile;
 pub use scene_builder::SceneBuilder;

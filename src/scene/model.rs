@@ -12,7 +12,7 @@ use super::sides::Sides;
 use super::texture::Texture;
 use super::triangle::{Triangle, Vertex, area_of};
 use crate::base::bounds::Bounds;
-use crate::base::ids::TriangleId;
+use crate::base::ids::{InstanceId, TriangleId};
 
 /// A scene ready to be lit: everything in world space, metres, +Y up, counter-clockwise front faces.
 #[derive(Clone, Debug, Default)]
@@ -41,6 +41,8 @@ pub struct Scene {
     pub light_groups: Vec<String>,
     /// Baked light of the file: vertex attributes whose name begins with `_IRRADIANCE_`, one value per vertex.
     pub irradiance: Vec<VertexAttribute>,
+    /// What a bake has written about the elements of instances, unchecked; `baked::gltf::from_scene` takes it.
+    pub element_records: Vec<(InstanceId, ElementRecord)>,
     /// Names of the file's material variants; [`gltf::LoadOptions`](super::gltf::LoadOptions) selects one on loading.
     pub variants: Vec<String>,
     /// Number of triangles of the file that were dropped because they have no area.
@@ -65,6 +67,17 @@ pub struct VertexAttribute {
     pub name: String,
     /// Values `[v]`.
     pub values: Vec<Vec3>,
+}
+
+/// What a bake writes about the triangles of a primitive, which are its elements: `extras.elements` as the file has it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ElementRecord {
+    /// Version of the record.
+    pub version: u64,
+    /// Bisection trees of the triangles, as text. `None` if the record has none.
+    pub trees: Option<String>,
+    /// The triangles are the backs of those of the instance that lies this many before. `None` if the record does not say so.
+    pub back_of: Option<usize>,
 }
 
 impl Scene {

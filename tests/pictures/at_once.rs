@@ -21,7 +21,7 @@ const SIZE: [u32; 2] = [160, 90];
 /// How many pixels differ by more than a step of eight bits, and how many are neither black nor white.
 fn compare(gpu: &Gpu, scene: &Scene, settings: &RenderSettings) -> [usize; 2] {
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
-    let buffers = SceneBuffers::new(gpu, &BakedScene { scene: scene.clone(), light });
+    let buffers = SceneBuffers::new(gpu, &BakedScene::new(scene.clone(), light));
     let shadows = Arc::new(ShadowScene::new(gpu, Arc::new(scene.clone())));
     let camera = &scene.cameras[0];
     let request = PictureRequest::new(&buffers, camera, SIZE, settings);
@@ -79,7 +79,7 @@ fn pictures_of_a_movement_settle_on_the_exposure_that_suits_them() {
     let Some(gpu) = gpu() else { return };
     let scene = builtin::gallery();
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
-    let buffers = SceneBuffers::new(gpu, &BakedScene { scene: scene.clone(), light });
+    let buffers = SceneBuffers::new(gpu, &BakedScene::new(scene.clone(), light));
     let [dim, bright] =
         [0.02, 40.0].map(|ambient| RenderSettings { ambient: Vec3::splat(ambient), ..RenderSettings::default() });
     let [dim, bright] =

@@ -44,7 +44,8 @@ fn scene(name: &str) -> Scene {
 /// A picture in uniform ambient light, which shows shape, colours and textures.
 fn shown(scene: Scene) -> Option<Raster> {
     let camera = scene.cameras[0].clone();
-    let baked = BakedScene { light: VertexLight::dark(0, scene.vertices.len()), scene };
+    let light = VertexLight::dark(0, scene.vertices.len());
+    let baked = BakedScene::new(scene, light);
     let settings = RenderSettings {
         ambient: Vec3::splat(0.5),
         exposure: Exposure::Ev(0.0),

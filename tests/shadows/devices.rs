@@ -27,7 +27,7 @@ fn case_24_without_optional_formats_shadows_are_as_exact() {
     let mut stage = Stage::new();
     stage.cube(at(0.0, 1.0, 0.0), 0).sphere(glam::Vec3::new(-1.6, 1.0, 0.3), 0.6);
     let light = VertexLight::dark(1, stage.scene.vertices.len());
-    let baked = BakedScene { scene: stage.scene, light };
+    let baked = BakedScene::new(stage.scene, light);
     let scene = &SceneBuffers::new(gpu, &baked);
     let shadows = &ShadowScene::new(gpu, Arc::new(baked.scene));
     let view = &View::from_camera(&stage.camera, SIZE[0] as f32 / SIZE[1] as f32);

@@ -118,7 +118,7 @@ impl Stage {
 
     /// On the device with stored light.
     pub fn lit(&self, gpu: &Gpu, light: VertexLight) -> SceneBuffers {
-        SceneBuffers::new(gpu, &BakedScene { scene: self.scene.clone(), light })
+        SceneBuffers::new(gpu, &BakedScene::new(self.scene.clone(), light))
     }
 
     /// Where the middle of a pixel looks at the floor.
@@ -135,7 +135,7 @@ impl Stage {
         let mut scene = self.scene.clone();
         scene.instances[0].triangles = 0..scene.triangles.len();
         let light = VertexLight::dark(1, scene.vertices.len());
-        let baked = BakedScene { scene, light };
+        let baked = BakedScene::new(scene, light);
         Shot {
             buffers: SceneBuffers::new(gpu, &baked),
             shadows: Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene))),

@@ -7,6 +7,7 @@
 
 use glam::{IVec2, Vec2, Vec3, Vec4};
 
+use crate::baked::bisection_trees::{BisectionTrees, Halving};
 use crate::base::ids::TriangleId;
 use crate::scene::{AlphaMode, Scene, Triangle};
 
@@ -46,39 +47,79 @@ pub(super) struct Forest {
 }
 
 impl Forest {
-    /// The largest trees that there are. What blends is drawn triangle by triangle in the order of the file, and has none.
-    pub fn new(scene: &Scene) -> Self {
+    /// The trees of a scene: those that a bake keeps, if they fit, else those that its triangles suggest.
+    pub fn new(scene: &Scene, kept: Option<&BisectionTrees>) -> Self {
+        kept.and_then(|trees| Self::of_trees(scene, trees)).unwrap_or_else(|| Self::guessed(scene))
+    }
+
+    /// The triangles of the mesh, which no tree joins yet.
+    fn of_elements(scene: &Scene) -> Self {
         let leaf = |triangle: &Triangle| Node { corners: triangle.vertices, halves: None, num_elements: 1 };
-        let mut forest = Self { nodes: scene.triangles.iter().map(leaf).collect(), parents: Vec::new() };
-        forest.parents = vec![None; forest.nodes.len()];
-        let kind = |t: usize| {
+        let nodes: Vec<Node> = scene.triangles.iter().map(leaf).collect();
+        Self { parents: vec![None; nodes.len()], nodes }
+    }
+
+    /// The trees that a bake keeps. `None` if they do not fit the triangles.
+    ///
+    /// Halves whose vertices have been moved apart since are left as they are.
+    fn of_trees(scene: &Scene, trees: &BisectionTrees) -> Option<Self> {
+        if trees.num_elements() != scene.triangles.len() {
+            return None;
+        }
+        let mut forest = Self::of_elements(scene);
+        for tree in trees.iter() {
+            let first = TriangleId::new(tree.elements.start);
+            if blends(scene, first) {
+                continue;
+            }
+            let element = |e: usize| (Some(e as u32), scene.triangles[e].vertices);
+            tree.visit(scene.sides.is_back(first), element, |halves: [Option<u32>; 2], halving| {
+                let Halving { corners, middle } = halving;
+                let is_joined = is_middle(scene, middle, [corners[1], corners[2]]);
+                halves[0].zip(halves[1]).filter(|_| is_joined).map(|(a, b)| forest.join([a, b], corners, middle))
+            })
+            .ok()?;
+        }
+        Some(forest)
+    }
+
+    /// The largest trees that the order and the positions of the triangles suggest.
+    fn guessed(scene: &Scene) -> Self {
+        let mut forest = Self::of_elements(scene);
+        let surface = |t: usize| {
             let triangle = &scene.triangles[t];
             (triangle.instance, triangle.material, scene.sides.is_back(TriangleId::new(t)))
         };
         let mut unpaired: Vec<u32> = Vec::new();
-        for (t, triangle) in scene.triangles.iter().enumerate() {
-            let goes_on = t > 0 && kind(t) == kind(t - 1);
-            if !goes_on || scene.materials[triangle.material.index()].alpha_mode == AlphaMode::Blend {
+        for t in 0..scene.triangles.len() {
+            let goes_on = t > 0 && surface(t) == surface(t - 1);
+            if !goes_on || blends(scene, TriangleId::new(t)) {
                 unpaired.clear();
             }
             unpaired.push(t as u32);
             while let [.., first, second] = unpaired[..]
-                && let Some(node) = forest.pair(scene, [first, second])
+                && let Some((corners, middle)) = forest.pair(scene, [first, second])
             {
                 unpaired.truncate(unpaired.len() - 2);
-                let number = forest.nodes.len() as u32;
-                unpaired.push(number);
-                forest.parents[first as usize] = Some(number);
-                forest.parents[second as usize] = Some(number);
-                forest.nodes.push(node);
-                forest.parents.push(None);
+                unpaired.push(forest.join([first, second], corners, middle));
             }
         }
         forest
     }
 
-    /// The node that two others are the halves of.
-    fn pair(&self, scene: &Scene, nodes: [u32; 2]) -> Option<Node> {
+    /// Adds the node that two others are the halves of and returns its number.
+    fn join(&mut self, halves: [u32; 2], corners: [u32; 3], middle: u32) -> u32 {
+        let number = self.nodes.len() as u32;
+        let num_elements = halves.iter().map(|&half| self.nodes[half as usize].num_elements).sum();
+        self.nodes.push(Node { corners, halves: Some(Halves { nodes: halves, middle }), num_elements });
+        self.parents.push(None);
+        halves.into_iter().for_each(|half| self.parents[half as usize] = Some(number));
+        number
+    }
+
+    /// Corners, apex first, of the triangle that two nodes are the halves of, and the vertex in the middle of its base. `None` if
+    /// they are not.
+    fn pair(&self, scene: &Scene, nodes: [u32; 2]) -> Option<([u32; 3], u32)> {
         let [first, second] = nodes.map(|node| &self.nodes[node as usize]);
         let (i, j) = (0..9).map(|k| (k / 3, k % 3)).find(|&(i, j)| {
             // The same edge, the other way round.
@@ -86,15 +127,13 @@ impl Forest {
         })?;
         let (from, to) = (first.corners[i], first.corners[(i + 1) % 3]);
         let (left, right) = (first.corners[(i + 2) % 3], second.corners[(j + 2) % 3]);
-        let (corners, middle) = if is_middle(scene, from, [left, right]) {
-            ([to, left, right], from)
+        if is_middle(scene, from, [left, right]) {
+            Some(([to, left, right], from))
         } else if is_middle(scene, to, [left, right]) {
-            ([from, right, left], to)
+            Some(([from, right, left], to))
         } else {
-            return None;
-        };
-        let num_elements = first.num_elements + second.num_elements;
-        Some(Node { corners, halves: Some(Halves { nodes, middle }), num_elements })
+            None
+        }
     }
 
     /// One of the triangles of the mesh that make up a node.
@@ -120,6 +159,11 @@ impl Forest {
             self.visit(half, self.nodes[half as usize].corners.map(place_of), tell);
         }
     }
+}
+
+/// Triangles that blend are drawn one by one in the order of the file, so no trees join them.
+fn blends(scene: &Scene, triangle: TriangleId) -> bool {
+    scene.material_of(triangle).alpha_mode == AlphaMode::Blend
 }
 
 /// A vertex lies in the middle of an edge in all that is linear in a triangle, and has a normal that suits.

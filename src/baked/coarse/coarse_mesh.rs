@@ -5,6 +5,7 @@ use glam::UVec2;
 use super::bisection::Forest;
 use super::coarsen::{Whole, coarsen};
 use super::tiles::{Filling, Layout};
+use crate::baked::bisection_trees::BisectionTrees;
 use crate::scene::{Scene, Triangle};
 
 /// Texels across and down at most: 256 MiB of light.
@@ -48,9 +49,10 @@ pub(crate) struct ElementTexels {
 }
 
 impl CoarseMesh {
-    /// The coarse mesh of a scene, where it is worth while and the texture no wider or higher than `max_side`.
-    pub fn new(scene: &Scene, max_side: u32) -> Option<Self> {
-        let forest = Forest::new(scene);
+    /// The coarse mesh of a scene of elements, with their bisection trees if these are known. `None` if the mesh would not be
+    /// much smaller, or the texture would be wider or higher than `max_side`.
+    pub fn new(scene: &Scene, trees: Option<&BisectionTrees>, max_side: u32) -> Option<Self> {
+        let forest = Forest::new(scene, trees);
         let num_elements = scene.triangles.len();
         // Most have far fewer texels than the most.
         let per_element = (2 * u64::from(MAX_SIDE).pow(2) / num_elements.max(1) as u64).min(MAX_TEXELS_PER_ELEMENT);

@@ -42,7 +42,7 @@ fn area(scene: &Scene, triangles: &[Triangle]) -> f64 {
 fn the_coarse_mesh_has_the_same_surfaces_in_fewer_triangles() {
     for (scene, element_size, share) in [(builtin::cornell(), 0.1, 20), (builtin::gallery(), 0.3, 2)] {
         let elements = elements_of(&scene, element_size);
-        let coarse = CoarseMesh::new(&elements, MAX_SIDE).expect("a bake");
+        let coarse = CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake");
         let (num_elements, num_coarse) = (elements.triangles.len(), coarse.triangles.len());
         assert!(share * num_coarse < num_elements, "{num_coarse} of {num_elements}");
         let (fine, left) = (area(&elements, &elements.triangles), area(&elements, &coarse.triangles));
@@ -55,7 +55,7 @@ fn the_coarse_mesh_has_the_same_surfaces_in_fewer_triangles() {
 #[test]
 fn no_corner_that_was_on_an_edge_is_left_there_alone() {
     let elements = elements_of(&builtin::cornell(), 0.1);
-    let coarse = CoarseMesh::new(&elements, MAX_SIDE).expect("a bake");
+    let coarse = CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake");
     let bits = |p: Vec3| (p + Vec3::ZERO).to_array().map(f32::to_bits);
     let used: HashMap<_, _> =
         coarse.triangles.iter().flat_map(|t| corners(&elements, t)).map(|corner| (bits(corner), corner)).collect();
@@ -80,11 +80,11 @@ fn a_vertex_that_something_else_touches_stays() {
         let places = coarse.triangles.iter().flat_map(|triangle| corners(elements, triangle));
         places.filter(|place| place.distance(middle) < 1e-4).count()
     };
-    assert_eq!(num_at(&CoarseMesh::new(&elements, MAX_SIDE).expect("a bake"), &elements), 0);
+    assert_eq!(num_at(&CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake"), &elements), 0);
     let touching = elements.vertices.iter().position(|vertex| vertex.position.distance(middle) < 1e-4).expect("halved");
     let vertices = [touching as u32, 0, 1];
     elements.triangles.push(Triangle { vertices, ..elements.triangles[0] });
-    assert!(num_at(&CoarseMesh::new(&elements, MAX_SIDE).expect("a bake"), &elements) >= 4);
+    assert!(num_at(&CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake"), &elements) >= 4);
 }
 
 fn is_in(tile: &Tile, texel: UVec2) -> bool {
@@ -126,7 +126,7 @@ fn sampled(texture: &[f32], side: u32, at: Vec2) -> f32 {
 #[test]
 fn light_that_is_linear_on_a_surface_comes_out_of_its_tile_as_it_is() {
     let elements = elements_of(&builtin::cornell(), 0.1);
-    let coarse = CoarseMesh::new(&elements, MAX_SIDE).expect("a bake");
+    let coarse = CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake");
     let light = |p: Vec3| 1.0 + p.dot(Vec3::new(3.0, 5.0, -2.0));
     let texture = filled(&coarse, |v| light(elements.vertices[v as usize].position));
     for (triangle, tile) in coarse.triangles.iter().zip(&coarse.tiles) {
@@ -144,7 +144,7 @@ fn light_that_is_linear_on_a_surface_comes_out_of_its_tile_as_it_is() {
 #[test]
 fn both_sides_of_an_edge_show_the_same_light_along_it() {
     let elements = elements_of(&builtin::cornell(), 0.1);
-    let coarse = CoarseMesh::new(&elements, MAX_SIDE).expect("a bake");
+    let coarse = CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake");
     // Anything that depends on the place alone and is not smooth.
     let light = |p: Vec3| (p * 1234.5).element_sum().sin();
     let texture = filled(&coarse, |v| light(elements.vertices[v as usize].position));
@@ -175,17 +175,17 @@ fn what_blends_is_not_put_together() {
     for material in &mut scene.materials {
         material.alpha_mode = AlphaMode::Blend;
     }
-    assert!(CoarseMesh::new(&elements_of(&scene, 0.1), MAX_SIDE).is_none());
+    assert!(CoarseMesh::new(&elements_of(&scene, 0.1), None, MAX_SIDE).is_none());
 }
 
 #[test]
 fn a_scene_as_it_was_loaded_or_none_at_all_has_no_coarse_mesh() {
-    assert!(CoarseMesh::new(&builtin::gallery(), MAX_SIDE).is_none());
-    assert!(CoarseMesh::new(&Scene::default(), MAX_SIDE).is_none());
+    assert!(CoarseMesh::new(&builtin::gallery(), None, MAX_SIDE).is_none());
+    assert!(CoarseMesh::new(&Scene::default(), None, MAX_SIDE).is_none());
 }
 
 #[test]
 fn a_texture_that_no_device_holds_is_not_made() {
     let elements = elements_of(&builtin::cornell(), 0.1);
-    assert!(CoarseMesh::new(&elements, 100).is_none());
+    assert!(CoarseMesh::new(&elements, None, 100).is_none());
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use glam::{DAffine3, DMat3, Vec3};
 use serde_json::{Value, json};
 
-use super::named;
+use super::json::named;
 use crate::scene::{Instance, Scene, Transform, is_degenerate, is_placeable};
 
 /// Volume that a transform leaves of a cube as large as its longest axis, below which it flattens things.

@@ -11,7 +11,8 @@ use image::{ExtendedColorType, ImageEncoder};
 use serde_json::{Map, Value, json};
 
 use super::binary::Binary;
-use super::{Extensions, named, node, unlit};
+use super::json::{Extensions, named};
+use super::{node, unlit};
 use crate::scene::{AlphaMode, Image, Material, Sampler, Scene, TextureSlot, Wrap};
 
 /// The arrays that tell what surfaces look like.

@@ -1,4 +1,4 @@
-//! What nodes show, as meshes: one primitive for each material and side.
+//! The triangles of nodes as meshes: one primitive for each material and side.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -6,41 +6,65 @@ use glam::Vec4;
 use serde_json::{Map, Value, json};
 
 use super::binary::Binary;
+use super::elements::Elements;
 use super::hierarchy::{Branch, Space};
+use super::json::named;
+use super::light_storage::LightStorage;
 use super::material::texture_slots;
-use super::{LightOf, moz_lightmap, named};
+use super::moz_lightmap;
 use crate::base::ids::{MaterialId, TriangleId};
 use crate::scene::{Material, Scene, Vertex};
 
-/// One mesh a branch that has triangles, in their order.
-pub(super) fn meshes(scene: &Scene, branches: &[Branch], light: LightOf<'_>, binary: &mut Binary) -> Vec<Value> {
+/// One mesh for each branch that has triangles, in their order.
+pub(super) fn meshes(scene: &Scene, branches: &[Branch], light: LightStorage<'_>, binary: &mut Binary) -> Vec<Value> {
+    let elements = match light {
+        LightStorage::Vertices { trees, .. } => Some(Elements::new(scene, trees)),
+        LightStorage::None | LightStorage::Texture { .. } => None,
+    };
     let drawn = branches.iter().filter(|branch| !branch.triangles.is_empty());
-    drawn.map(|branch| mesh(scene, light, branch, binary)).collect()
+    drawn.map(|branch| mesh(scene, light, elements.as_ref(), branch, binary)).collect()
 }
 
-fn mesh(scene: &Scene, light: LightOf<'_>, branch: &Branch, binary: &mut Binary) -> Value {
-    let mut parts: BTreeMap<(MaterialId, bool), Vec<[u32; 3]>> = BTreeMap::new();
-    for t in branch.triangles.clone() {
-        let triangle = &scene.triangles[t];
-        let [a, b, c] = triangle.vertices;
-        let corners = if branch.space.is_mirrored() { [a, c, b] } else { [a, b, c] };
-        parts.entry((triangle.material, scene.sides.is_back(TriangleId::new(t)))).or_default().push(corners);
+fn mesh(
+    scene: &Scene,
+    light: LightStorage<'_>,
+    elements: Option<&Elements<'_>>,
+    branch: &Branch,
+    binary: &mut Binary,
+) -> Value {
+    let mut parts: BTreeMap<(MaterialId, bool), Vec<TriangleId>> = BTreeMap::new();
+    for triangle in branch.triangles.clone().map(TriangleId::new) {
+        let key = (scene.triangles[triangle.index()].material, scene.sides.is_back(triangle));
+        parts.entry(key).or_default().push(triangle);
     }
-    let primitives: Vec<Value> = parts
-        .into_iter()
-        .map(|((material, is_back), triangles)| {
-            let (vertices, indices) = renumber(&triangles);
-            let mut primitive = json!({
-                "attributes": attributes(scene, light, &branch.space, material, &vertices, binary),
-                "indices": binary.push_indices(&indices, vertices.len()),
-                "material": material.index(),
-            });
-            if is_back {
-                primitive["extras"] = json!({ "back_side": true });
-            }
-            primitive
-        })
-        .collect();
+    let corners = |triangle: &TriangleId| {
+        let [a, b, c] = scene.triangles[triangle.index()].vertices;
+        if branch.space.is_mirrored() { [a, c, b] } else { [a, b, c] }
+    };
+    let mut primitives: Vec<Value> = Vec::with_capacity(parts.len());
+    let mut front: Option<(MaterialId, &[TriangleId])> = None;
+    for (&(material, is_back), triangles) in &parts {
+        let (vertices, indices) = renumber(&triangles.iter().map(corners).collect::<Vec<_>>());
+        let mut primitive = json!({
+            "attributes": attributes(scene, light, &branch.space, material, &vertices, binary),
+            "indices": binary.push_indices(&indices, vertices.len()),
+            "material": material.index(),
+        });
+        let mut extras = Map::new();
+        if is_back {
+            extras.insert("back_side".into(), json!(true));
+        }
+        // The fronts of a material are the primitive before its backs.
+        let fronts = front.filter(|(of, _)| is_back && *of == material).map(|(_, fronts)| fronts);
+        if let Some(record) = elements.and_then(|elements| elements.record(triangles, fronts)) {
+            extras.insert("elements".into(), record);
+        }
+        if !extras.is_empty() {
+            primitive["extras"] = Value::Object(extras);
+        }
+        primitives.push(primitive);
+        front = (!is_back).then_some((material, triangles));
+    }
     let mut mesh = named(&branch.name);
     mesh["primitives"] = json!(primitives);
     mesh
@@ -66,7 +90,7 @@ fn renumber(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
 /// Accessors of the attributes that say something; what is left out reads back as its default.
 fn attributes(
     scene: &Scene,
-    light: LightOf<'_>,
+    light: LightStorage<'_>,
     space: &Space,
     material: MaterialId,
     vertices: &[u32],
@@ -79,24 +103,24 @@ fn attributes(
     put("POSITION".into(), binary.push_positions(used().map(|vertex| space.position(vertex.position).to_array())));
     put("NORMAL".into(), binary.push_attribute(used().map(|vertex| space.normal(vertex.normal).to_array())));
     let num_uv_sets = match light {
-        LightOf::Texture { .. } => moz_lightmap::uv_set(material),
-        LightOf::Nothing | LightOf::Vertices(_) => num_uv_sets(material, used()),
+        LightStorage::Texture { .. } => moz_lightmap::uv_set(material),
+        LightStorage::None | LightStorage::Vertices { .. } => num_uv_sets(material, used()),
     };
     for set in 0..num_uv_sets {
         let coordinates = used().map(|vertex| vertex.uv[set].to_array());
         put(format!("TEXCOORD_{set}"), binary.push_attribute(coordinates));
     }
-    if let LightOf::Texture { lightmap, .. } = light {
+    if let LightStorage::Texture { lightmap, .. } = light {
         let coordinates = vertices.iter().map(|&v| lightmap.coordinates[v as usize].to_array());
         put(format!("TEXCOORD_{num_uv_sets}"), binary.push_attribute(coordinates));
     }
     let is_painted = used().any(|vertex| vertex.colour != Vec4::ONE);
-    if let LightOf::Vertices(look) = light {
+    if let LightStorage::Vertices { appearance, .. } = light {
         // COLOR_0 shows the light, and the paint lies beside it. All attributes of ours are triples, because Blender's
         // importer mixes up such as are not alike.
         put(
             "COLOR_0".into(),
-            binary.push_colours(vertices.iter().map(|&v| look.colour(scene, material, v).to_array())),
+            binary.push_colours(vertices.iter().map(|&v| appearance.colour(scene, material, v).to_array())),
         );
         if is_painted {
             put("_COLOR".into(), binary.push_attribute(used().map(|vertex| vertex.colour.truncate().to_array())));
@@ -104,7 +128,7 @@ fn attributes(
         if used().any(|vertex| vertex.colour.w != 1.0) {
             put("_ALPHA".into(), binary.push_attribute(used().map(|vertex| [vertex.colour.w; 3])));
         }
-        for (g, group) in look.light.groups.iter().enumerate() {
+        for (g, group) in appearance.light.groups.iter().enumerate() {
             for (part, values) in [("DIRECT", &group.direct), ("INDIRECT", &group.indirect)] {
                 let values = vertices.iter().map(|&v| values[v as usize].to_array());
                 put(format!("_IRRADIANCE_{part}_{g}"), binary.push_attribute(values));

@@ -13,8 +13,8 @@ use glam::Vec3;
 use image::ExtendedColorType;
 use serde_json::{Value, json};
 
-use super::Extensions;
 use super::binary::Binary;
+use super::json::Extensions;
 use super::material::{Surfaces, png, texture_slots};
 use crate::baked::Lightmap;
 use crate::base::sampling::r2;

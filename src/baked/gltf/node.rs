@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::binary::Binary;
 use super::hierarchy::Branch;
-use super::named;
+use super::json::named;
 use crate::base::ids::GroupId;
 use crate::scene::{Camera, Light, LightKind, Projection, Scene};
 

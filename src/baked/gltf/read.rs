@@ -1,22 +1,22 @@
 //! A bake read back: a loaded scene whose vertices carry light.
 
+use super::elements::{self, Recorded};
 use crate::baked::pairing::pair_by_position;
 use crate::baked::{BakedScene, GroupLight, VertexLight};
 use crate::scene::{Scene, VertexAttribute};
 
-/// Takes the stored light out of a loaded scene.
+/// Takes the stored light out of a loaded scene, with what the file records of its elements.
 ///
-/// A group whose light is stored in part is dark in the rest; groups that the file does not name get a number for a
-/// name.
+/// A group of which only a part is stored is dark in the rest; groups without a name in the file are named by their number.
 ///
 /// # Errors
-/// The scene itself, unchanged, where it carries no light.
+/// Returns the scene itself, unchanged, if it carries no light.
 #[expect(clippy::result_large_err, reason = "the error is the argument handed back, once a file")]
 pub fn from_scene(mut scene: Scene) -> Result<BakedScene, Scene> {
-    // More groups than attributes would be a broken file, and an excuse to ask for all memory.
+    // A larger group number than there are attributes is an error of the file, and must not allocate memory for all groups below.
     let limit = scene.irradiance.len();
-    let place_of = |attribute: &VertexAttribute| place(&attribute.name).filter(|&(_, group)| group < limit);
-    let Some(last) = scene.irradiance.iter().filter_map(place_of).map(|(_, group)| group).max() else {
+    let part_of = |attribute: &VertexAttribute| part(&attribute.name).filter(|&(_, group)| group < limit);
+    let Some(last) = scene.irradiance.iter().filter_map(part_of).map(|(_, group)| group).max() else {
         return Err(scene);
     };
     for g in scene.light_groups.len()..=last {
@@ -24,21 +24,26 @@ pub fn from_scene(mut scene: Scene) -> Result<BakedScene, Scene> {
     }
     let mut light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
     for attribute in std::mem::take(&mut scene.irradiance) {
-        if let Some((part, group)) = place_of(&attribute) {
+        if let Some((part, group)) = part_of(&attribute) {
             *part(&mut light.groups[group]) = attribute.values;
         }
     }
+    let records = std::mem::take(&mut scene.element_records);
+    let Recorded { trees, pairs, notes } = elements::read(&scene, &records);
+    notes.iter().for_each(|note| log::warn!("{}: {note}", scene.name));
+    scene.notes.extend(notes);
+    scene.sides.add_pairs(pairs);
     if scene.sides.num_unpaired() > 0 {
         pair_by_position(&mut scene);
     }
-    Ok(BakedScene { scene, light })
+    Ok(BakedScene { scene, light, trees })
 }
 
-/// Picks the direct or the indirect half of a group's light.
+/// Selects the direct or the indirect light of a group.
 type Part = fn(&mut GroupLight) -> &mut Vec<glam::Vec3>;
 
-/// Which half of which group an attribute holds.
-fn place(name: &str) -> Option<(Part, usize)> {
+/// The part and the group whose light an attribute holds. `None` if its name is no such name.
+fn part(name: &str) -> Option<(Part, usize)> {
     let (part, number): (Part, _) = if let Some(number) = name.strip_prefix("_IRRADIANCE_DIRECT_") {
         (|group| &mut group.direct, number)
     } else {
@@ -66,14 +71,14 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_without_light_comes_back_as_it_was() {
+    fn a_scene_without_light_is_returned_unchanged() {
         assert!(from_scene(scene_with(&[])).is_err());
         let other = from_scene(scene_with(&[("_IRRADIANCE_TOTAL", 1.0)])).unwrap_err();
         assert_eq!(other.irradiance.len(), 1);
     }
 
     #[test]
-    fn halves_find_their_groups_and_missing_ones_are_dark() {
+    fn attributes_go_to_their_groups_and_missing_parts_are_dark() {
         let attributes = [("_IRRADIANCE_DIRECT_1", 1.0), ("_IRRADIANCE_INDIRECT_0", 2.0)];
         let baked = from_scene(scene_with(&attributes)).expect("there is light");
         assert_eq!(baked.scene.light_groups, ["sun", "group 1"]);
@@ -83,7 +88,7 @@ mod tests {
     }
 
     #[test]
-    fn a_group_number_out_of_all_bounds_is_no_light() {
+    fn a_group_number_beyond_the_number_of_attributes_is_ignored() {
         assert!(from_scene(scene_with(&[("_IRRADIANCE_DIRECT_4000000000", 1.0)])).is_err());
     }
 }

@@ -1,3 +1,4 @@
+mod elements;
 mod tree;
 
 use std::sync::Arc;
@@ -5,11 +6,11 @@ use std::sync::Arc;
 use glam::{Affine2, Vec2, Vec3, Vec4};
 
 use super::*;
-use crate::baked::VertexLight;
+use crate::baked::{BakedScene, VertexLight};
 use crate::base::ids::{GroupId, InstanceId, MaterialId, TextureId, TriangleId};
 use crate::scene::{
-    AlphaMode, Camera, Image, Instance, Light, LightKind, Material, Projection, Sampler, Sides, Texture, TextureSlot,
-    Triangle, Vertex, Wrap,
+    AlphaMode, Camera, Image, Instance, Light, LightKind, Material, Projection, Sampler, Scene, Sides, Texture,
+    TextureSlot, Triangle, Vertex, Wrap,
 };
 
 /// A one-pixel texture.
@@ -129,7 +130,7 @@ fn baked() -> BakedScene {
             group.indirect[v] = Vec3::new(0.2, v as f32 / 7.0, g as f32);
         }
     }
-    BakedScene { scene, light }
+    BakedScene::new(scene, light)
 }
 
 #[test]
@@ -258,7 +259,7 @@ fn other_programs_see_exposed_light_on_unlit_surfaces() {
     let mut light = VertexLight::dark(2, scene.vertices.len());
     light.groups[1].direct.fill(Vec3::splat(0.25 * std::f32::consts::PI));
     light.groups[0].indirect.fill(Vec3::splat(0.25 * std::f32::consts::PI));
-    let glb = to_glb(&BakedScene { scene, light }, 1.0).expect("small");
+    let glb = to_glb(&BakedScene::new(scene, light), 1.0).expect("small");
     // Vertex paint is (1, 0.5, 0.25, 0.75); radiance of white is 0.5, shown twice as bright.
     let colours = shown_colours(&glb);
     let close = |a: [f32; 4], b: [f32; 4]| a.iter().zip(b).all(|(a, b)| (a - b).abs() < 1e-4);

@@ -47,7 +47,7 @@ impl SceneBuffers {
         let scene = &baked.scene;
         let num_groups = scene.light_groups.len().max(baked.light.groups.len());
         let limits = gpu.device.limits();
-        let coarse = || CoarseMesh::new(scene, limits.max_texture_dimension_2d);
+        let coarse = || CoarseMesh::new(scene, baked.trees.as_ref(), limits.max_texture_dimension_2d);
         let (order, coarse) = rayon::join(|| draw_order(scene, |_| true), coarse);
         let coarse = coarse.filter(|coarse| Tiles::can_be_bound(coarse, &limits));
         let (DrawOrder { batches, chunks, .. }, indices) = order;

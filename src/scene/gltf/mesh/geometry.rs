@@ -1,16 +1,16 @@
 //! A mesh primitive in mesh space: vertices and separate triangles, whatever the topology in the file.
 
 use glam::DMat3;
-use gltf::json::Extras;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
+use serde_json::Value;
 
 use super::attributes::{Attributes, Influence};
 use super::topology::{keep_used, triangulate};
 use super::{draco, morph};
 use crate::scene::gltf::error::Cause;
 use crate::scene::gltf::file::document::Document;
-use crate::scene::{Vertex, VertexAttribute};
+use crate::scene::{ElementRecord, Vertex, VertexAttribute};
 
 /// A primitive in mesh space.
 #[derive(Clone)]
@@ -27,6 +27,8 @@ pub(crate) struct Geometry {
     pub influences: Vec<Vec<Influence>>,
     /// Whether it is the back of a double-sided surface, which a bake writes as triangles of its own.
     pub is_back: bool,
+    /// What a bake has written about its triangles. `None` if it is not from a bake.
+    pub elements: Option<ElementRecord>,
 }
 
 impl Geometry {
@@ -45,6 +47,7 @@ impl Geometry {
         name: &str,
     ) -> Result<Option<Self>, Cause> {
         let decoded = draco::decode(document, primitive, name)?;
+        let extras = extras(primitive);
         let attributes = Attributes::new(document, primitive, &decoded, name);
         let Some(positions) = attributes.reader(Semantic::Positions)? else { return Ok(None) };
         let Checked::Valid(mode @ (Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan)) = primitive.mode else {
@@ -64,7 +67,8 @@ impl Geometry {
             has_normals,
             irradiance: attributes.irradiance(&rows)?,
             influences: attributes.influences(&rows)?,
-            is_back: is_marked_back_side(&primitive.extras),
+            is_back: extras["back_side"] == true,
+            elements: element_record(&extras["elements"]),
         }))
     }
 }
@@ -74,10 +78,19 @@ fn dangling_vertex(primitive: &Primitive, row: u32) -> Cause {
     Cause::accessor(accessor, format!("index {row} refers to no vertex"))
 }
 
-/// Whether the `extras` of a primitive mark it as the back of a double-sided surface.
-fn is_marked_back_side(extras: &Extras) -> bool {
-    let value = extras.as_ref().and_then(|raw| serde_json::from_str::<serde_json::Value>(raw.get()).ok());
-    value.is_some_and(|value| value["back_side"] == true)
+/// The `extras` of a primitive; null if there are none.
+fn extras(primitive: &Primitive) -> Value {
+    let value = primitive.extras.as_ref().and_then(|raw| serde_json::from_str(raw.get()).ok());
+    value.unwrap_or_default()
+}
+
+/// What a bake has written about the triangles of a primitive. `None` if it is not from a bake.
+fn element_record(elements: &Value) -> Option<ElementRecord> {
+    Some(ElementRecord {
+        version: elements["version"].as_u64()?,
+        trees: elements["trees"].as_str().map(str::to_owned),
+        back_of: elements["back_of"].as_u64().and_then(|count| usize::try_from(count).ok()),
+    })
 }
 
 /// Matrix that transforms normals: the inverse transpose of `linear` up to a positive factor. It is computed from

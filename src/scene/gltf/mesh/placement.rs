@@ -44,6 +44,9 @@ pub(crate) fn place(
     for vertex in scene.vertices[first..].iter_mut().filter(|vertex| vertex.normal == Vec3::ZERO) {
         vertex.normal = Vec3::Y;
     }
+    if let Some(record) = &geometry.elements {
+        scene.element_records.push((instance, record.clone()));
+    }
     scene.instances.push(Instance { name, triangles: first_triangle..scene.triangles.len() });
     Ok(())
 }
