@@ -1,9 +1,9 @@
 //! Rays per second: from random points of the surface, cosine-distributed about the front normal, on all cores.
 //!
-//! On a machine that others use too, compare the rates a second of processor time (told on Linux).
+//! On a machine that runs other programs as well, compare the rates per second of processor time (known on Linux only).
 //!
-//! `cargo bench --bench rays -- [SCENE.glb] [RAYS]`; without a scene the built-in Cornell box. Where EMBREE_PYTHON names a
-//! Python that has embreex, Embree meets the same rays in the same run, on as many processes as we have threads.
+//! `cargo bench --bench rays -- [SCENE.glb] [RAYS]`; the built-in Cornell box by default. If EMBREE_PYTHON names a
+//! Python with embreex, Embree traces the same rays in the same run, on as many processes as there are threads.
 
 use std::io::Write;
 use std::path::Path;
@@ -60,11 +60,11 @@ fn main() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// How fast rays were.
+/// Rays per second.
 struct Rate {
     /// Rays a second on all threads.
     a_second: f64,
-    /// Rays a second of processor time; no number where the system does not tell.
+    /// Rays per second of processor time; NaN if the system does not report it.
     a_busy_second: f64,
     /// Share of the rays that hit.
     hit_share: f64,
@@ -127,16 +127,16 @@ fn embree(python: &Path, scene: &Scene, rays: &[Ray]) -> anyhow::Result<Vec<Rate
     text.lines().map(rate).collect()
 }
 
-/// Time that the processor has spent in this program, all threads together; none where the system does not tell.
+/// Processor time of this program, the sum of all threads. `None` if the system does not report it.
 fn processor_seconds() -> Option<f64> {
-    // Fields 14 and 15 of proc(5), in hundredths of a second; the second field, a name in brackets, may hold blanks.
+    // Fields 14 and 15 of proc(5), in hundredths of a second; the second field, a name in brackets, may contain blanks.
     let text = std::fs::read_to_string("/proc/self/stat").ok()?;
     let fields: Vec<&str> = text.rsplit_once(')')?.1.split_whitespace().collect();
     let ticks = |field: usize| fields.get(field - 3)?.parse::<f64>().ok();
     Some((ticks(14)? + ticks(15)?) / 100.0)
 }
 
-/// Rays from points spread over the surface by area, in no order.
+/// Rays from points distributed over the surface by area, in random order.
 fn rays(scene: &Scene, count: u32) -> Vec<Ray> {
     let mut whole = 0.0;
     let triangles = (0..scene.triangles.len()).map(TriangleId::new);

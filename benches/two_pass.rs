@@ -1,8 +1,9 @@
 //! Two-pass ray tracing against path tracing of the same picture: error, bias and time, in one run.
 //!
-//! `cargo bench --bench two_pass -- [SCENE.glb[=REFERENCE.exr] ...]`; without a scene the built-in ones with lamps that paths
-//! find. The bake counts as part of the second pass' time. With a reference the mean radiance of both pictures is compared
-//! with its own, at its size. PATH_SPP is the number of paths a pixel [default: 1024], SIZE the larger side [default: 320].
+//! `cargo bench --bench two_pass -- [SCENE.glb[=REFERENCE.exr] ...]`; by default the built-in scenes whose lamps paths
+//! can find. The time of two passes includes the bake. With a reference, the mean radiance of both pictures is compared
+//! with that of the reference, at its size. PATH_SPP is the number of paths a pixel [default: 1024], SIZE the larger
+//! side [default: 320].
 
 use std::path::Path;
 use std::time::Instant;
@@ -21,7 +22,7 @@ fn main() -> anyhow::Result<()> {
     let args: Vec<String> = std::env::args().skip(1).filter(|arg| arg != "--bench").collect();
     if args.is_empty() {
         for scene in [builtin::cornell(), builtin::mirrors()] {
-            judge(&scene, None)?;
+            measure(&scene, None)?;
         }
     }
     for arg in &args {
@@ -33,13 +34,13 @@ fn main() -> anyhow::Result<()> {
             Some(name) => builtin::by_name(name).context("there is no such built-in scene")?,
             None => gltf::load(Path::new(scene))?,
         };
-        judge(&scene, reference.as_ref())?;
+        measure(&scene, reference.as_ref())?;
     }
     Ok(())
 }
 
-/// Makes the same picture both ways and tells how they compare.
-fn judge(scene: &Scene, reference: Option<&Raster>) -> anyhow::Result<()> {
+/// Renders the same picture both ways and prints the differences.
+fn measure(scene: &Scene, reference: Option<&Raster>) -> anyhow::Result<()> {
     let camera = scene.cameras.first().cloned().unwrap_or_else(|| Camera::framing(scene.bounds()));
     let size = match reference {
         Some(reference) => reference.size,

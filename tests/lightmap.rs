@@ -1,4 +1,4 @@
-//! Light as a texture: the files as a user gets them, and what the texture shows against the light that it was made from.
+//! Lightmaps: the files of the program, and the light of the texture against the light at the vertices.
 
 use std::path::Path;
 use std::process::Command;
@@ -13,15 +13,15 @@ use hemicube::lightmap::{LightmapSettings, lightmap};
 use hemicube::scene::builtin;
 
 #[test]
-fn the_texture_shows_what_the_vertices_store() {
+fn the_texture_shows_the_light_at_the_vertices() {
     let scene = builtin::by_name("cornell").expect("it is built in");
     let settings = BakeSettings { method: Some(Method::Hemisphere), ..BakeSettings::preset(Quality::Draft) };
     let bake = bake(&scene, &settings).expect("it bakes");
     let size = settings.mesh_settings(&scene).element_size;
     let map = lightmap(&scene, &bake.mesh, &bake.baked.light, &LightmapSettings::for_elements(size)).expect("it fits");
 
-    // At random places of every element: the light between its vertices, and that of the texture, found by way of the large
-    // triangle that the element is a part of.
+    // At random places of every element: the light between its vertices, and that of the texture, found by way of the
+    // large triangle that the element is a part of.
     let (mut deviations, mut mean) = (Vec::new(), 0.0);
     for (e, element) in bake.mesh.elements.iter().enumerate() {
         let corners = bake.mesh.corners(element);
@@ -51,9 +51,9 @@ fn the_texture_shows_what_the_vertices_store() {
         below >= 0.99 * area
     });
     let most = most.expect("there are elements").0 / mean;
-    println!("mean deviation {mean_deviation}, told {}, 99 % below {most} of the mean light", map.deviation);
+    println!("mean deviation {mean_deviation}, stated {}, 99 % below {most} of the mean light", map.deviation);
     assert!(mean_deviation < 0.01 && most < 0.1, "mean {mean_deviation}, 99 % below {most}");
-    assert!((map.deviation / mean_deviation - 1.0).abs() < 0.2, "told {}, found {mean_deviation}", map.deviation);
+    assert!((map.deviation / mean_deviation - 1.0).abs() < 0.2, "stated {}, found {mean_deviation}", map.deviation);
 }
 
 /// Bakes the built-in Cornell box to `lit.glb` with a lightmap beside it.
@@ -69,7 +69,7 @@ fn baked(folder: &Path) {
 }
 
 #[test]
-fn the_file_says_where_its_texture_is_and_how_bright() {
+fn the_file_names_its_texture_and_its_brightness() {
     let folder = tempfile::tempdir().expect("a folder");
     baked(folder.path());
     let file = gltf::Gltf::open(folder.path().join("lit-lightmap.glb")).expect("valid glTF");

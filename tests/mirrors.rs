@@ -1,4 +1,4 @@
-//! Light that mirrors and panes throw: closed forms, and two passes against paths.
+//! Caustics of mirrors and panes: against closed forms, and two passes against paths.
 
 use std::f32::consts::PI;
 
@@ -37,7 +37,7 @@ fn silver() -> Material {
     Material { metallic: 1.0, roughness: 0.0, ..paint(Vec3::splat(0.9)) }
 }
 
-/// A lamp that turns its back on the square, and a mirror above both.
+/// A lamp that faces away from a square, and a mirror above both.
 fn lamp_in_a_mirror() -> Quads {
     let mut quads = Quads::square(paint(Vec3::splat(0.05)), Vec3::ZERO);
     let lamp = Material { emission: Vec3::splat(5.0), group: Some(GroupId(0)), ..paint(Vec3::ZERO) };
@@ -50,7 +50,7 @@ fn lamp_in_a_mirror() -> Quads {
 }
 
 #[test]
-fn a_mirror_throws_the_light_of_the_lamp_behind_it() {
+fn a_mirror_reflects_the_light_of_a_lamp_on_to_a_square_behind_the_lamp() {
     let quads = lamp_in_a_mirror();
     // Mean over the square of the form factor to the lamp's image, by the midpoint rule.
     let image = [(3.0, -0.5), (3.0, 0.5), (4.0, 0.5), (4.0, -0.5)].map(|(x, y)| Vec3::new(x, y, 3.0));
@@ -64,14 +64,15 @@ fn a_mirror_throws_the_light_of_the_lamp_behind_it() {
         ("final gather", second_pass(&quads, Ambient::Indirect { final_gather: 1 })),
         ("paths", by_paths(&quads.baked.scene, 4096)),
     ] {
-        // Metal reflects a little more at an angle, 0.1 (1 - cos)^5, and shows the square to itself: less than 1 % of 0.9.
+        // Metal reflects a little more at an angle, 0.1 (1 - cos)^5, and shows the square to itself: less than 1 % of
+        // 0.9.
         assert!(found.x > 0.985 * exact && found.x < 1.02 * exact, "{name}: {found} for {exact}");
     }
     assert_eq!(second_pass(&quads, Ambient::None), Vec3::ZERO);
 }
 
 #[test]
-fn a_small_lamp_shines_in_rough_metal_without_grain() {
+fn the_highlight_of_a_small_lamp_in_rough_metal_has_little_noise() {
     let mut quads = Quads::square(Material { roughness: 0.4, ..silver() }, Vec3::ZERO);
     let lamp = Material { emission: Vec3::splat(10.0), group: Some(GroupId(0)), ..paint(Vec3::ZERO) };
     let lamp = quads.material(lamp);
@@ -101,7 +102,7 @@ fn a_small_lamp_shines_in_rough_metal_without_grain() {
 }
 
 #[test]
-fn a_lamp_behind_a_pane_lights_through_it() {
+fn a_lamp_shines_through_a_pane() {
     let mut builder = SceneBuilder::default();
     let floor = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));
     let lamp = builder.material(glowing(Vec3::ZERO, Vec3::splat(8.0)));
@@ -118,7 +119,7 @@ fn a_lamp_behind_a_pane_lights_through_it() {
     scene.materials[2] = Material { transmission: 1.0, ior: 1.5, ..paint(Vec3::splat(0.5)) };
     let point = MeasuringPoint { position: Vec3::ZERO, normal: Vec3::Y };
     let settings = PathSettings { samples: 1 << 14, ..PathSettings::default() };
-    let found = irradiance(&Tracer::new(&scene), &[point], &settings, &Unwatched).expect("nobody cancels")[0];
+    let found = irradiance(&Tracer::new(&scene), &[point], &settings, &Unwatched).expect("nothing cancels")[0];
     // Nearly head-on: 4 % are reflected, half of the rest is the tint.
     let exact = 8.0 * 0.96 * 0.5 * point_to_polygon(Vec3::ZERO, Vec3::Y, &down);
     assert!((found.direct.x / exact - 1.0).abs() < 0.01, "{found:?} for {exact}");
@@ -126,7 +127,7 @@ fn a_lamp_behind_a_pane_lights_through_it() {
     scene.materials[1].emission = Vec3::ZERO;
     scene.lights.push(Light::point(position, Vec3::splat(3.0)));
     scene.triangles.retain(|triangle| triangle.material.index() != 1);
-    let found = irradiance(&Tracer::new(&scene), &[point], &settings, &Unwatched).expect("nobody cancels")[0];
+    let found = irradiance(&Tracer::new(&scene), &[point], &settings, &Unwatched).expect("nothing cancels")[0];
     let exact = 3.0 * 0.96 * 0.5 * position.y / position.length().powi(3);
     assert!((found.direct.x / exact - 1.0).abs() < 1e-3, "{found:?} for {exact}");
 }
@@ -150,7 +151,7 @@ fn room_with_a_mirror() -> Scene {
 }
 
 #[test]
-fn two_passes_find_as_much_light_as_paths_among_mirrors_and_panes() {
+fn two_passes_equal_paths_in_a_room_with_mirrors_and_panes() {
     let scene = room_with_a_mirror();
     let settings = BakeSettings { element_size: Some(0.1), ..BakeSettings::preset(Quality::Draft) };
     let baked = bake(&scene, &settings).expect("small").baked;
@@ -166,7 +167,7 @@ fn two_passes_find_as_much_light_as_paths_among_mirrors_and_panes() {
 }
 
 #[test]
-fn a_normal_map_turns_the_surface_to_the_light() {
+fn a_normal_map_tilts_the_surface_towards_the_light() {
     // Texels that lean by 36.9 degrees to the right and up.
     for (texel, lean) in
         [([204, 128, 230, 255], Vec3::new(0.6, 0.0, 0.8)), ([128, 204, 230, 255], Vec3::new(0.0, 0.6, 0.8))]

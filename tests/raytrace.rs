@@ -1,4 +1,4 @@
-//! Rays against closed forms: furnaces, form factors, mirrors, panes; and against the bake.
+//! Ray tracing against closed forms (furnaces, form factors, mirrors, panes) and against the bake.
 
 use std::f32::consts::{FRAC_1_PI, PI};
 
@@ -47,7 +47,7 @@ fn by_two_passes(quads: &Quads, ambient: Ambient) -> Film {
 }
 
 #[test]
-fn in_a_furnace_every_bounce_adds_its_share() {
+fn each_bounce_in_a_furnace_adds_its_share() {
     let (reflectance, exitance) = (Vec3::new(0.5, 0.8, 0.2), Vec3::new(1.0, 2.0, 3.0));
     let scene = scenes::furnace(reflectance, exitance);
     let eye = Camera::looking_at("inside", Vec3::splat(0.5), Vec3::new(0.9, 0.3, 0.1), 1.0);
@@ -68,7 +68,7 @@ fn in_a_furnace_every_bounce_adds_its_share() {
     assert_close(found.total, found.total_error, exitance / (1.0 - reflectance));
 }
 
-/// A lamp on the ceiling, facing down, and a floor beside nothing else.
+/// A lamp that faces down, and a floor below it.
 fn lamp_over(floor_reflectance: f32) -> (Scene, [Vec3; 4]) {
     let mut builder = SceneBuilder::default();
     let lamp = builder.material(glowing(Vec3::ZERO, Vec3::new(4.0, 2.0, 1.0)));
@@ -81,7 +81,7 @@ fn lamp_over(floor_reflectance: f32) -> (Scene, [Vec3; 4]) {
 }
 
 #[test]
-fn a_lamp_lights_a_point_as_its_form_factor_says_and_its_back_lights_nothing() {
+fn a_lamp_lights_a_point_by_its_form_factor_and_nothing_behind_it() {
     let (scene, lamp) = lamp_over(0.0);
     let settings = PathSettings { samples: 4096, ..PathSettings::default() };
     for position in [Vec3::new(0.2, 0.0, 0.3), Vec3::new(0.9, 0.97, 0.4), Vec3::new(1.9, 0.0, -0.8)] {
@@ -94,7 +94,7 @@ fn a_lamp_lights_a_point_as_its_form_factor_says_and_its_back_lights_nothing() {
 }
 
 #[test]
-fn one_bounce_off_a_point_of_light_is_a_sum_over_the_floor() {
+fn one_bounce_of_a_point_light_is_an_integral_over_the_floor() {
     let mut builder = SceneBuilder::default();
     let floor = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));
     let at = |x: f32, z: f32| Vec3::new(x, 0.0, z);
@@ -114,14 +114,14 @@ fn one_bounce_off_a_point_of_light_is_a_sum_over_the_floor() {
     }
     exact *= (2.0 / steps as f32).powi(2);
     assert_close(found.total - found.direct, found.total_error, Vec3::splat(exact));
-    // Straight from the lamp nothing is left to chance.
+    // Direct light of a punctual light needs no random choice.
     let to_lamp = lamp - eye;
     let direct = intensity * -to_lamp.y / to_lamp.length().powi(3);
     assert!((found.direct.x / direct - 1.0).abs() < 1e-4 && found.direct_error == Vec3::ZERO, "{found:?} for {direct}");
 }
 
 #[test]
-fn what_a_point_of_light_throws_on_a_ceiling_beside_it_is_found_by_few_paths() {
+fn few_paths_find_the_bright_spot_of_a_point_light_beside_a_ceiling() {
     let mut builder = SceneBuilder::default();
     let ceiling = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));
     let at = |x: f32, z: f32| Vec3::new(x, 0.0, z);
@@ -148,7 +148,7 @@ fn what_a_point_of_light_throws_on_a_ceiling_beside_it_is_found_by_few_paths() {
 }
 
 #[test]
-fn a_pattern_on_a_lamp_lights_as_its_bright_half() {
+fn a_lamp_with_a_pattern_lights_as_its_bright_half() {
     let mut quads = Quads::with_groups(1);
     quads.baked.scene.textures.push(texture(2, &[[0, 0, 0, 255], [255, 255, 255, 255]]));
     let glow = Material {
@@ -167,7 +167,7 @@ fn a_pattern_on_a_lamp_lights_as_its_bright_half() {
     assert_close(found.total, found.total_error, Vec3::splat(exact));
 }
 
-/// The square with `front`, and behind the eye a large wall that shines towards it.
+/// A square of material `front`, and behind the camera a large wall that emits towards it.
 fn before_a_shining_wall(front: Material, radiance: f32) -> Quads {
     let mut quads = Quads::square(front, Vec3::ZERO);
     let glow = Material { emission: Vec3::splat(radiance), group: Some(GroupId(0)), ..paint(Vec3::ZERO) };
@@ -178,7 +178,7 @@ fn before_a_shining_wall(front: Material, radiance: f32) -> Quads {
 }
 
 #[test]
-fn a_mirror_shows_the_wall_behind_the_eye_in_its_own_colour() {
+fn a_mirror_shows_the_wall_behind_the_camera_in_the_colour_of_the_mirror() {
     let silver = Vec3::new(0.9, 0.8, 0.4);
     let mirror = Material { metallic: 1.0, roughness: 0.0, ..paint(silver) };
     let quads = before_a_shining_wall(mirror, 3.0);
@@ -194,14 +194,14 @@ fn a_mirror_shows_the_wall_behind_the_eye_in_its_own_colour() {
 }
 
 #[test]
-fn a_pane_shows_what_lies_behind_and_a_hint_of_what_lies_before() {
+fn a_pane_shows_what_is_behind_it_and_a_faint_reflection() {
     let pane = Material { transmission: 1.0, ior: 1.5, ..paint(Vec3::splat(0.5)) };
     let mut quads = before_a_shining_wall(pane, 10.0);
     let glow = Material { emission: Vec3::ONE, group: Some(GroupId(0)), ..paint(Vec3::ZERO) };
     let behind = quads.material(glow);
     quads.quad(Vec3::new(-2.0, -2.0, -1.0), 4.0 * Vec3::X, 4.0 * Vec3::Y, behind);
     quads.light(GroupId(0), |_| Vec3::ZERO, |_| Vec3::ZERO);
-    // Fresnel head-on: ((1.5 - 1) / (1.5 + 1))^2.
+    // Fresnel reflectance at normal incidence: ((1.5 - 1) / (1.5 + 1))^2.
     let exact = 0.04 * 10.0 + 0.96 * 0.5;
     let truth =
         by_paths(&quads.baked.scene, &square_camera(), &PathSettings { samples: 256, ..PathSettings::default() });
@@ -211,7 +211,7 @@ fn a_pane_shows_what_lies_behind_and_a_hint_of_what_lies_before() {
 }
 
 #[test]
-fn what_blends_passes_the_rest_of_the_light() {
+fn a_surface_that_blends_lets_the_rest_of_the_light_pass() {
     let veil = Material { alpha_mode: AlphaMode::Blend, base_colour: Vec3::ZERO.extend(0.25), ..paint(Vec3::ZERO) };
     let mut quads = Quads::square(veil, Vec3::ZERO);
     let glow = Material { emission: Vec3::ONE, group: Some(GroupId(0)), ..paint(Vec3::ZERO) };
@@ -226,7 +226,7 @@ fn what_blends_passes_the_rest_of_the_light() {
 }
 
 #[test]
-fn the_second_pass_adds_its_ambient_light_to_the_lamps() {
+fn the_second_pass_adds_ambient_light_to_that_of_the_lamps() {
     let colour = Vec3::new(0.8, 0.5, 0.2);
     let mut quads = Quads::square(paint(colour), Vec3::ZERO);
     quads.light(GroupId(0), |_| Vec3::splat(2.0), |at| Vec3::splat(1.0 + at.x));
@@ -241,7 +241,7 @@ fn the_second_pass_adds_its_ambient_light_to_the_lamps() {
         let seen = see(&quads, ambient);
         assert!((seen - radiance).abs().max_element() < 1e-3, "{ambient:?}: {seen} for {radiance}");
     }
-    // Two walls a little apart see each other only: what is gathered is what the other reflects of its light.
+    // Two walls close together see only each other: the gathered light is what the other wall reflects.
     let grey = quads.material(paint(Vec3::splat(0.5)));
     quads.quad(Vec3::new(50.0, -50.0, 0.01), -100.0 * Vec3::X, 100.0 * Vec3::Y, grey);
     quads.light(GroupId(0), |_| Vec3::splat(2.0), |_| Vec3::splat(1.0));
@@ -261,7 +261,7 @@ fn lamp_room() -> Scene {
     with_groups(builder.build(), 1)
 }
 
-/// Stored irradiance over what paths find, summed over vertices away from the edges of [`lamp_room`].
+/// Ratio of stored irradiance to that of paths, summed over vertices away from the edges of [`lamp_room`].
 fn baked_over_paths(scene: &Scene, baked: &BakedScene, paths: &PathSettings) -> Vec3 {
     let light = &baked.light.groups[0];
     let vertices: Vec<usize> = (0..baked.scene.vertices.len()).step_by(7).collect();
@@ -273,7 +273,7 @@ fn baked_over_paths(scene: &Scene, baked: &BakedScene, paths: &PathSettings) -> 
     let truth = irradiance(&Tracer::new(scene), &points, paths, &Unwatched).unwrap();
     let (mut baked_sum, mut true_sum, mut num_inside) = (Vec3::ZERO, Vec3::ZERO, 0);
     for ((&v, point), found) in vertices.iter().zip(&points).zip(&truth) {
-        // Not in the edges of the room, where a point has no surface of its own, nor on the hidden back of the lamp.
+        // Points in the edges of the room have no surface of their own, and the back of the lamp is hidden.
         let inset =
             (point.position - 0.05).min(Vec3::new(2.95, 1.95, 2.45) - point.position) + 0.1 * point.normal.abs();
         if inset.min_element() > 0.0 && point.position.y < 1.9 {
@@ -287,7 +287,7 @@ fn baked_over_paths(scene: &Scene, baked: &BakedScene, paths: &PathSettings) -> 
 }
 
 #[test]
-fn radiosity_is_what_paths_find() {
+fn radiosity_equals_path_tracing() {
     let Some(gpu) = gpu() else { return };
     let scene = lamp_room();
     let settings = BakeSettings { element_size: Some(0.15), ..BakeSettings::preset(Quality::Draft) };
@@ -297,7 +297,7 @@ fn radiosity_is_what_paths_find() {
 }
 
 #[test]
-fn the_k_th_gathering_pass_is_what_paths_of_as_many_reflections_find() {
+fn the_k_th_gathering_pass_equals_paths_of_k_reflections() {
     let scene = lamp_room();
     for passes in 1..=3 {
         let settings = BakeSettings {
@@ -309,7 +309,7 @@ fn the_k_th_gathering_pass_is_what_paths_of_as_many_reflections_find() {
             ..BakeSettings::preset(Quality::Draft)
         };
         let baked = bake(&scene, &settings).unwrap().baked;
-        // Irradiance has yet to be reflected by the surface that the eye looks at.
+        // Irradiance has not yet been reflected by the surface that the camera sees.
         let paths = PathSettings { max_bounces: passes as u32 - 1, ..PathSettings::default() };
         let ratio = baked_over_paths(&scene, &baked, &paths);
         assert!((ratio - 1.0).abs().max_element() < 0.01, "pass {passes}: {ratio}");

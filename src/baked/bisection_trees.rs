@@ -1,11 +1,12 @@
-//! The bisection trees of a bake: which elements are halves of one triangle, and so on up to the triangles of the input.
+//! The bisection trees of a bake: which elements are halves of one triangle, and so on up to the triangles of the
+//! input.
 //!
-//! A bake keeps them because they follow from its triangles only with some guessing. The coarse mesh for drawing is made of
-//! their nodes ([`super::coarse`]).
+//! A bake keeps them because they follow from its triangles only with some guessing. The coarse mesh for drawing is
+//! made of their nodes ([`super::coarse`]).
 //!
 //! A triangle with corners `(a, f, s)`, apex first, is halved at the midpoint `m` of `f` and `s` into `(m, a, f)` and
-//! `(m, s, a)` (`patch::subdivide`). The elements of a tree are its leaves, from the first half to the second. So the shape of a
-//! tree, in preorder, and the corners of its leaves are all of it.
+//! `(m, s, a)` (`patch::subdivide`). The elements of a tree are its leaves, from the first half to the second. So the
+//! shape of a tree, in preorder, and the corners of its leaves are all of it.
 
 use std::fmt;
 use std::ops::Range;
@@ -15,7 +16,8 @@ use crate::patch::{Node, PatchMesh};
 /// Deepest tree that is read; its depth is bounded by the shortest edge, far below this.
 const MAX_DEPTH: u32 = 128;
 
-/// The trees of all input triangles, in the order of their elements. Either side of a double-sided triangle has its own.
+/// The trees of all input triangles, in the order of their elements. Either side of a double-sided triangle has its
+/// own.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BisectionTrees {
     /// Tree after tree, each in preorder.
@@ -25,7 +27,8 @@ pub struct BisectionTrees {
 /// A node of a tree.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TreeNode {
-    /// A tree of `2^depth` elements, whose triangles are all halved opposite their first corner; a single element at depth 0.
+    /// A tree of `2^depth` elements, whose triangles are all halved opposite their first corner; a single element at
+    /// depth 0.
     Regular {
         /// At most 15.
         depth: u8,
@@ -84,8 +87,8 @@ impl BisectionTrees {
         }
     }
 
-    /// Reads trees from their text, one character a node: `a` to `p` for regular trees of depth 0 to 15, `0` to `2` for the
-    /// apex of a triangle that is halved. `None` if a character is none of these or the last tree is incomplete.
+    /// Reads trees from their text, one character a node: `a` to `p` for regular trees of depth 0 to 15, `0` to `2` for
+    /// the apex of a triangle that is halved. `None` if a character is none of these or the last tree is incomplete.
     pub(crate) fn parse(text: &str) -> Option<Self> {
         let node = |character: u8| match character {
             b'a'..=b'p' => Some(TreeNode::Regular { depth: character - b'a' }),
@@ -147,11 +150,13 @@ impl fmt::Display for BisectionTrees {
 }
 
 impl Tree<'_> {
-    /// Visits the triangles that are halved, halves before wholes, and returns an error if the halves do not share the edges
-    /// that they have to.
+    /// Visits the triangles that are halved, halves before wholes.
     ///
-    /// `corners_of` returns the vertices of an element, whose triangles are flipped, as `[a, c, b]`, if `is_back`. `join` returns
-    /// the number of the triangle that two numbered triangles are the halves of; elements have their own numbers.
+    /// `element` returns a number for an element, of any type, and its vertices. `join` returns a number for the triangle
+    /// that two numbered triangles are the halves of. `is_back` says that the winding is that of a back, `[a, c, b]`.
+    ///
+    /// # Errors
+    /// Returns an error if two halves do not share the edge that they have to.
     pub fn visit<N: Copy>(
         &self,
         is_back: bool,

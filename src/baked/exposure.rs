@@ -1,7 +1,7 @@
-//! The exposure that suits a bake as a whole, whichever way one looks.
+//! One exposure for a whole bake, for every view.
 //!
-//! The rule is that of shaders/display/light_meter.wgsl, with surfaces in the place of pixels: the mean of the logarithms is shown as
-//! middle grey, unless highlights would burn out.
+//! The rule is that of shaders/display/light_meter.wgsl, with surfaces in place of pixels: the mean of the logarithms
+//! of luminance is shown as middle grey, unless highlights would be overexposed.
 
 use std::f32::consts::PI;
 
@@ -14,16 +14,16 @@ use crate::scene::area_of;
 
 /// Display value of the mean.
 const MIDDLE_GREY: f32 = 0.2;
-/// Share of the lit area that is darker than a highlight.
+/// Share of the lit area that is darker than the highlights.
 const HIGHLIGHT_SHARE: f32 = 0.95;
-/// Display value that a highlight may reach: where tone mapping begins to roll off.
+/// Largest display value of a highlight, where tone mapping begins to compress.
 const HIGHLIGHT: f32 = 0.8;
-/// What is darker than this share of the brightest surface says nothing about the exposure.
+/// Surfaces darker than this share of the brightest one do not count.
 const DARK: f32 = 1e-4;
 
-/// Exposure value: displayed = radiance x 2^EV; 0 where nothing is lit.
+/// Exposure value EV: displayed = radiance x 2^EV; 0 if nothing is lit.
 ///
-/// Textures count as white, for they are multiplied on later.
+/// Textures count as white.
 #[must_use]
 pub fn suited(baked: &BakedScene) -> f32 {
     let mut lit: Vec<(f32, f32)> = (0..baked.scene.triangles.len()).map(|t| luminance_and_area(baked, t)).collect();
@@ -44,7 +44,7 @@ pub fn suited(baked: &BakedScene) -> f32 {
     (MIDDLE_GREY.log2() - mean).min((HIGHLIGHT / highlight).log2())
 }
 
-/// Reflected luminance of a triangle's middle, nit, and its area.
+/// Reflected luminance at the middle of a triangle, nit, and its area.
 fn luminance_and_area(baked: &BakedScene, t: usize) -> (f32, f32) {
     let scene = &baked.scene;
     let triangle = &scene.triangles[t];
@@ -63,7 +63,7 @@ mod tests {
     use crate::baked::{GroupLight, VertexLight};
     use crate::scene::{Material, SceneBuilder};
 
-    /// Equal triangles of white paint that show these luminances.
+    /// Equal white triangles with these luminances.
     fn showing(luminances: &[f32]) -> BakedScene {
         let direct = luminances.iter().flat_map(|&luminance| [Vec3::splat(luminance * PI); 3]).collect::<Vec<_>>();
         let mut builder = SceneBuilder::default();
@@ -83,13 +83,13 @@ mod tests {
     }
 
     #[test]
-    fn highlights_are_kept() {
+    fn highlights_are_not_overexposed() {
         let exposure = suited(&showing(&[1.0, 1.0, 1.0, 1000.0])).exp2();
         assert!((exposure * 1000.0 - HIGHLIGHT).abs() < 1e-3, "{exposure}");
     }
 
     #[test]
-    fn the_dark_has_any_exposure() {
+    fn a_dark_scene_has_exposure_0() {
         assert_eq!(suited(&showing(&[0.0])), 0.0);
         assert_eq!(suited(&BakedScene::default()), 0.0);
     }

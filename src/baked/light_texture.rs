@@ -1,4 +1,4 @@
-//! Light as a texture over the scene as it was loaded: what programs take that know no light at vertices.
+//! Light as a texture over the scene as it was loaded, for programs that read no light at vertices.
 
 use std::io::Cursor;
 
@@ -6,45 +6,45 @@ use glam::{Vec2, Vec3};
 
 use crate::scene::Scene;
 
-/// A scene whose light lies in one texture.
+/// A scene whose light is stored in one texture (a lightmap).
 #[derive(Clone, Debug, Default)]
 pub struct Lightmap {
-    /// The scene, not cut into elements. Double-sided triangles are written out as a front and a back, as in a bake; vertices
-    /// are apart where the texture has a seam.
+    /// The scene, not cut into elements. Backs of double-sided triangles are triangles of their own, as in a bake;
+    /// vertices are separate at seams of the texture.
     pub scene: Scene,
-    /// Places in the texture `[v]`, of 0 to 1 from its top left corner.
+    /// Texture coordinates `[v]`, 0 to 1 from the top left corner.
     pub coordinates: Vec<Vec2>,
     /// The texture.
     pub texels: Texels,
     /// Width of a texel on the surfaces, metres.
     pub texel_size: f32,
-    /// Mean deviation in luminance from the light at vertices, as a share of the mean luminance.
+    /// Mean deviation in luminance from the light at vertices, relative to the mean luminance.
     pub deviation: f32,
 }
 
-/// Irradiance in rows from the top.
+/// A texture of irradiance, in rows from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Texels {
     /// Texels across.
     pub width: u32,
     /// Texels down.
     pub height: u32,
-    /// Irradiance `[y][x]`, lux per channel, all light groups and both parts together.
+    /// Irradiance `[y][x]`, lux per channel, the sum of direct and indirect light of all groups.
     pub irradiance: Vec<Vec3>,
 }
 
 impl Texels {
-    /// The bytes of an OpenEXR file: lux per channel in whole floats.
+    /// The bytes of an OpenEXR file: lux per channel in 32-bit floats.
     #[must_use]
     pub fn to_exr(&self) -> Vec<u8> {
         let channels = bytemuck::cast_slice(&self.irradiance).to_vec();
         let picture = image::Rgb32FImage::from_raw(self.width, self.height, channels).expect("three floats a texel");
         let mut file = Cursor::new(Vec::new());
-        picture.write_to(&mut file, image::ImageFormat::OpenExr).expect("memory takes it");
+        picture.write_to(&mut file, image::ImageFormat::OpenExr).expect("writing to memory succeeds");
         file.into_inner()
     }
 
-    /// Bilinear sample, as every graphics card takes it.
+    /// Bilinear sample, as by a graphics card.
     #[must_use]
     pub fn sample(&self, coordinate: Vec2) -> Vec3 {
         let at = coordinate * Vec2::new(self.width as f32, self.height as f32) - 0.5;
@@ -65,7 +65,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn texels_are_linear_between_their_centres_and_whole_in_a_file() {
+    fn texels_are_interpolated_linearly_and_written_as_floats() {
         let irradiance = [0.0, 1.0, 10.0, 11.0].map(Vec3::splat).to_vec();
         let texels = Texels { width: 2, height: 2, irradiance };
         let at = |x, y| texels.sample(Vec2::new(x, y)).x;

@@ -1,9 +1,10 @@
 //! Floor 2.5: a scene with its light, the result of a bake and the input of every picture.
 //!
-//! The triangles of a [`BakedScene`] are the *elements*; the back of a double-sided surface is a triangle of its own. Everything
-//! that works on a [`Scene`](crate::scene::Scene) (rays, shadows, `info`) therefore works on a bake.
+//! The triangles of a [`BakedScene`] are the *elements*; the back of a double-sided surface is a triangle of its own.
+//! Everything that works on a [`Scene`](crate::scene::Scene) (rays, shadows, `info`) therefore works on a bake.
 //!
-//! * `baked_scene`: the elements with their light. `bisection_trees`: how they come from input triangles. `pairing`: fronts and backs of files that do not say which belong together.
+//! * `baked_scene`: the elements with their light. `bisection_trees`: how they come from input triangles. `pairing`:
+//!   fronts and backs of files that do not say which belong together.
 //! * `light_texture`: light as a texture over the scene that was baked.
 //! * `gltf/`: both as files. `coarse/`: a mesh of fewer triangles for drawing. `exposure`: brightness of pictures.
 

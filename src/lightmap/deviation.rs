@@ -1,4 +1,4 @@
-//! How far a lightmap is from the light that it was made from.
+//! Deviation of a lightmap from the light that it is made from.
 
 use glam::Vec2;
 
@@ -7,10 +7,11 @@ use crate::baked::Texels;
 use crate::base::colour::luminance;
 use crate::base::sampling::{r2, triangle_from_square};
 
-/// Places on an element that are looked at.
+/// Sample points of an element.
 const POINTS: u32 = 4;
 
-/// Mean over all surfaces, at places all over the elements, of the deviation in luminance, as a share of the mean luminance.
+/// Mean deviation in luminance over all surfaces, as a share of the mean luminance: sum A |shown - stored| / sum A
+/// stored.
 pub(super) fn deviation(texels: &Texels, pieces: impl Iterator<Item = Piece>) -> f32 {
     let size = Vec2::new(texels.width as f32, texels.height as f32);
     let (mut deviation, mut light) = (0.0, 0.0);

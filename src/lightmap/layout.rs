@@ -1,35 +1,35 @@
-//! The surfaces of a scene laid flat beside each other in a texture.
+//! Unwrapping: the surfaces of a scene side by side in a texture.
 //!
-//! Source of the unwrapping: the crate `uvunwrap` (charts grown within a cone of normals, least squares conformal maps, charts
-//! packed with space between them).
+//! The crate `uvunwrap` grows charts of triangles within a cone of normals, flattens each by a least squares conformal
+//! map (Lévy et al. 2002) and packs the charts with space between them.
 
 use std::collections::HashMap;
 
 use glam::{DVec2, Vec2};
 use uvunwrap::{Atlas, Density, MeshInput, Options, OutputMesh, Packing, generate};
 
-use super::{LightmapError, LightmapSettings};
+use super::settings::{LightmapError, LightmapSettings};
 use crate::base::ids::{InstanceId, TriangleId};
 use crate::scene::{Instance, Scene, Sides, Triangle, Vertex};
 
-/// Empty texels round each chart: linear filtering needs one, the first smaller mip level two.
+/// Empty texels round each chart: bilinear filtering needs one, the first smaller mip level two.
 const PADDING: u32 = 2;
 
-/// A scene laid flat.
+/// An unwrapped scene.
 pub(super) struct Layout {
-    /// Fronts and backs as triangles of their own, vertices apart at seams.
+    /// Fronts and backs as separate triangles, with separate vertices at seams of the texture.
     pub scene: Scene,
-    /// Where the vertices lie in the texture `[v]`, 0 to 1.
+    /// Texture coordinates of the vertices `[v]`, 0 to 1.
     pub coordinates: Vec<Vec2>,
-    /// Triangle of the loaded scene that each triangle is a side of `[t]`.
+    /// Triangle of the loaded scene of which each triangle is a side `[t]`.
     pub sources: Vec<TriangleId>,
     /// Texels across and down.
     pub size: [u32; 2],
-    /// Metres.
+    /// Width of a texel, metres.
     pub texel_size: f32,
 }
 
-/// Lays a scene flat: each instance by itself, its fronts and its backs apart.
+/// Unwraps a scene: each instance by itself, its fronts and its backs separately.
 pub(super) fn lay_flat(scene: &Scene, settings: &LightmapSettings) -> Result<Layout, LightmapError> {
     let sides = |instance: usize| [Sheet::of(scene, instance, false), Sheet::of(scene, instance, true)];
     let sheets: Vec<[Sheet; 2]> = (0..scene.instances.len()).map(sides).collect();
@@ -59,7 +59,7 @@ pub(super) fn lay_flat(scene: &Scene, settings: &LightmapSettings) -> Result<Lay
     Ok(layout)
 }
 
-/// Packs at the density that is wanted, or at the highest that there is room for.
+/// Packs charts at the density of the settings, or at the highest that fits.
 fn packed(inputs: &[MeshInput<'_>], area: f64, settings: &LightmapSettings) -> Result<Atlas, LightmapError> {
     let options = |density| Options { density, padding: PADDING, packing: Packing::Fast, ..Options::default() };
     let side = settings.max_side;
@@ -77,7 +77,7 @@ fn packed(inputs: &[MeshInput<'_>], area: f64, settings: &LightmapSettings) -> R
     Ok(atlas)
 }
 
-/// One side of an instance as the unwrapper takes it.
+/// One side of an instance as input of the unwrapping.
 struct Sheet {
     instance: usize,
     is_back: bool,
@@ -86,7 +86,7 @@ struct Sheet {
     /// Scene vertex of each of its vertices.
     vertices: Vec<u32>,
     positions: Vec<[f32; 3]>,
-    /// Counter-clockwise seen from this side.
+    /// Counter-clockwise as seen from this side.
     indices: Vec<u32>,
     /// Square metres.
     area: f64,
@@ -120,7 +120,7 @@ impl Sheet {
 }
 
 impl Layout {
-    /// Takes one side of an instance from where the unwrapper has laid it.
+    /// Adds one unwrapped side of an instance.
     fn add(&mut self, scene: &Scene, sheet: &Sheet, laid: &OutputMesh) {
         let first = self.scene.vertices.len() as u32;
         for placed in &laid.vertices {

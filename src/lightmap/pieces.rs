@@ -1,4 +1,4 @@
-//! The elements where they lie in the texture.
+//! The elements at their places in the texture.
 
 use glam::{DVec2, DVec3, Vec3};
 
@@ -7,17 +7,17 @@ use crate::baked::VertexLight;
 use crate::base::ids::TriangleId;
 use crate::patch::{Element, PatchMesh};
 
-/// An element laid flat.
+/// An element in the texture.
 pub(super) struct Piece {
     /// In texels.
     pub corners: [DVec2; 3],
     /// Irradiance at the corners, lux per channel.
     pub light: [Vec3; 3],
-    /// On the surface, square metres; holes count.
+    /// Area of the surface, square metres, holes included.
     pub area: f64,
 }
 
-/// All elements, laid flat.
+/// All elements in the texture.
 pub(super) fn pieces<'a>(
     layout: &'a Layout,
     mesh: &'a PatchMesh,
@@ -37,7 +37,7 @@ pub(super) fn pieces<'a>(
     })
 }
 
-/// The way from places on a triangle into the texture.
+/// The affine map from the plane of a triangle to the texture.
 struct Flattening {
     corner: DVec3,
     edges: [DVec3; 2],
@@ -55,7 +55,8 @@ impl Flattening {
         mesh.corners(element).map(|place| self.at(place.as_dvec3()))
     }
 
-    /// Barycentric coordinates by the normal equations: exact for every place in the plane, the nearest for others.
+    /// Maps a position by barycentric coordinates from the normal equations, which project it on to the plane of the
+    /// triangle.
     fn at(&self, place: DVec3) -> DVec2 {
         let ([u, v], d) = (self.edges, place - self.corner);
         let (uu, uv, vv, du, dv) = (u.dot(u), u.dot(v), v.dot(v), d.dot(u), d.dot(v));

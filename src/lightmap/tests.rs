@@ -54,7 +54,7 @@ fn shown(map: &Lightmap) -> impl Iterator<Item = (usize, Vec3, Vec3)> {
 }
 
 #[test]
-fn light_that_is_linear_in_space_is_right_everywhere_within_a_texel() {
+fn light_that_is_linear_in_space_is_reproduced_within_one_texel() {
     let (scene, mesh) = room();
     let gradient = Vec3::new(3.0, 5.0, -2.0);
     let exact = |place: Vec3| Vec3::splat(40.0 + gradient.dot(place));
@@ -72,7 +72,7 @@ fn light_that_is_linear_in_space_is_right_everywhere_within_a_texel() {
 }
 
 #[test]
-fn no_light_bleeds_from_one_surface_into_another() {
+fn no_light_bleeds_between_surfaces() {
     // Every side of every wall has light of its own.
     let (scene, mesh) = room();
     let mut side_of = vec![(0, false); mesh.vertices.len()];
@@ -94,7 +94,7 @@ fn no_light_bleeds_from_one_surface_into_another() {
 }
 
 #[test]
-fn no_two_pieces_share_a_point_and_none_leaves_the_texture() {
+fn pieces_neither_overlap_nor_leave_the_texture() {
     let (scene, mesh) = room();
     let layout = layout::lay_flat(&scene, &FINE).expect("it fits");
     let dark = light(&mesh, |_| Vec3::ONE);
@@ -124,7 +124,7 @@ fn no_two_pieces_share_a_point_and_none_leaves_the_texture() {
 }
 
 #[test]
-fn a_texture_that_would_be_too_large_gets_larger_texels_and_none_at_all_is_an_error() {
+fn texels_grow_to_fit_the_largest_texture_and_too_small_a_texture_is_an_error() {
     let (scene, mesh) = room();
     let light = light(&mesh, |_| Vec3::ONE);
     let bounded = |max_side| lightmap(&scene, &mesh, &light, &LightmapSettings { max_side, ..FINE });
@@ -136,7 +136,7 @@ fn a_texture_that_would_be_too_large_gets_larger_texels_and_none_at_all_is_an_er
 }
 
 #[test]
-fn the_scene_stays_as_it_was_but_for_backs_and_seams() {
+fn only_backs_and_seams_differ_from_the_scene() {
     let (scene, mesh) = room();
     let map = lightmap(&scene, &mesh, &light(&mesh, |_| Vec3::ONE), &FINE).expect("it fits");
     assert_eq!(map.scene.triangles.len(), 2 * scene.triangles.len());

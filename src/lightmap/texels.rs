@@ -1,4 +1,4 @@
-//! Texels lit by the elements that lie on them.
+//! Draws the light of elements into texels.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -7,7 +7,7 @@ use glam::{DVec2, Vec3, Vec4, Vec4Swizzles as _};
 use super::pieces::Piece;
 use crate::baked::Texels;
 
-/// Points across and down a texel at which light is taken.
+/// Sample points across and down a texel.
 const POINTS: i64 = 4;
 
 /// Draws all pieces.
@@ -41,7 +41,7 @@ impl Canvas {
         Self { width, height, sums: vec![Vec4::ZERO; (width * height) as usize] }
     }
 
-    /// Takes light at all points of the grid that lie in the piece.
+    /// Adds the light at all sample points in the piece.
     fn add_area(&mut self, piece: &Piece) {
         let corners = piece.corners.map(|corner| corner * POINTS as f64);
         let doubled_area = cross(corners[1] - corners[0], corners[2] - corners[0]);
@@ -65,7 +65,8 @@ impl Canvas {
         }
     }
 
-    /// Texels that a piece touches and none covers, as at the tip of a sliver, take the light of the edges that cross them.
+    /// Texels that a piece touches without covering a sample point, as at the tip of a sliver, take the light of the
+    /// edges in them.
     fn touch(&self, piece: &Piece, touched: &mut BTreeMap<usize, Vec4>) {
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             let (start, end) = (piece.corners[from], piece.corners[to]);
@@ -86,7 +87,8 @@ impl Canvas {
         (y * self.width + x) as usize
     }
 
-    /// Lights what nothing covers by what is nearest, ring by ring, so that neither filtering nor smaller mip levels darken.
+    /// Gives texels that nothing covers the light of the nearest ones, ring by ring, so that neither filtering nor mip
+    /// maps darken surfaces.
     fn spread(&mut self) {
         let is_lit = |sums: &[Vec4], texel: usize| sums[texel].w > 0.0;
         let mut edge: VecDeque<usize> = (0..self.sums.len()).filter(|&texel| is_lit(&self.sums, texel)).collect();
@@ -103,7 +105,7 @@ impl Canvas {
         }
     }
 
-    /// The up to eight texels round one.
+    /// The up to eight neighbours of a texel.
     fn neighbours(&self, texel: usize) -> impl Iterator<Item = usize> + use<> {
         let (width, height) = (self.width, self.height);
         let (x, y) = (texel as i64 % width, texel as i64 / width);
@@ -122,7 +124,7 @@ fn bounds([a, b, c]: [DVec2; 3]) -> (DVec2, DVec2) {
     (a.min(b).min(c), a.max(b).max(c))
 }
 
-/// Points of a grid, which lie at halves, between two places.
+/// Indices of the sample points, which lie at half numbers, between two positions.
 fn grid_range(low: f64, high: f64, size: i64) -> std::ops::Range<i64> {
     let first = (low - 0.5).ceil() as i64;
     let last = (high - 0.5).floor() as i64;

@@ -1,10 +1,11 @@
 //! Patches: clusters of neighbouring elements that face alike.
 //!
-//! Real scenes have many tiny triangles, and a hemicube for each would be too many. A patch is a set of elements of one instance
-//! and material, within one cell of a grid and with normals in one bin, that are connected by shared edges or lie close
-//! together. It shoots as one.
+//! Real scenes have many tiny triangles, and a hemicube for each would be too many. A patch is a set of elements of one
+//! instance and material, within one cell of a grid and with normals in one bin, that are connected by shared edges or
+//! lie close together. It shoots as one.
 //!
-//! Source: Cohen, Greenberg, Immel, Brock 1986 (patches and elements); Willmott, Heckbert, Garland 1999 (face clusters).
+//! Source: Cohen, Greenberg, Immel, Brock 1986 (patches and elements); Willmott, Heckbert, Garland 1999 (face
+//! clusters).
 
 use glam::{IVec3, Vec3};
 use rustc_hash::FxHashMap;
@@ -16,7 +17,8 @@ use crate::scene::{Scene, normal_of};
 /// Normals are binned on the faces of a cube of this many cells a side: clusters span about 40 degrees.
 const NORMAL_CELLS: f32 = 1.5;
 
-/// Elements within this share of a patch size are joined without a shared edge: many scenes consist of separate small pieces.
+/// Elements within this share of a patch size are joined without a shared edge: many scenes consist of separate small
+/// pieces.
 const CLOSE: f32 = 0.25;
 
 /// Groups the elements of `mesh` into patches about `patch_size` metres wide.

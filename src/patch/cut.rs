@@ -9,8 +9,8 @@ use crate::scene::Scene;
 impl PatchMesh {
     /// Cuts a scene.
     ///
-    /// Every edge longer than the element size is split at its midpoint in all triangles that share it, so the elements are
-    /// conforming (no vertex lies within an edge) wherever the input is.
+    /// Every edge longer than the element size is split at its midpoint in all triangles that share it, so the elements
+    /// are conforming (no vertex lies within an edge) wherever the input is.
     ///
     /// # Errors
     /// Returns an error if the scene has no triangles or needs more elements than an item id can number.
@@ -18,8 +18,8 @@ impl PatchMesh {
         Self::refined(scene, settings, &mut Splits::default())
     }
 
-    /// Cuts a scene, and halves the edges of `splits` beyond the element size. Edges that have to be halved as well to keep
-    /// the mesh conforming are added to `splits`.
+    /// Cuts a scene, and halves the edges of `splits` beyond the element size. Edges that have to be halved as well to
+    /// keep the mesh conforming are added to `splits`.
     ///
     /// # Errors
     /// Returns an error as [`Self::new`] does.

@@ -1,7 +1,7 @@
 //! Mean reflectance, exitance and solid area of elements.
 //!
-//! Equation: with opacity a at sample points, the solid area is A mean(a), the reflectance sum(a rho) / sum(a) and the exitance
-//! pi sum(a L_e) / sum(a).
+//! Equation: with opacity a at sample points, the solid area is A mean(a), the reflectance sum(a rho) / sum(a) and the
+//! exitance pi sum(a L_e) / sum(a).
 
 use std::f32::consts::PI;
 

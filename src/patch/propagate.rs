@@ -1,7 +1,8 @@
 //! Conforming refinement: edges whose bisection follows from that of others.
 //!
-//! A triangle is only ever halved at its longest edge. Where another of its edges is to be halved, the longest edge has to be
-//! halved first, and so on through the neighbours, until every halved edge is halved in all triangles that share it.
+//! A triangle is only ever halved at its longest edge. Where another of its edges is to be halved, the longest edge has
+//! to be halved first, and so on through the neighbours, until every halved edge is halved in all triangles that share
+//! it.
 //!
 //! Source: Rivara 1984, "Algorithms for refining triangular grids based on bisection techniques" (propagation).
 

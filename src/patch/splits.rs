@@ -1,7 +1,7 @@
 //! Edges that are halved beyond the element size, where light needs finer elements.
 //!
-//! An edge is identified by the positions of its ends, so that both triangles at the edge, and all other surfaces that meet
-//! there, are halved alike.
+//! An edge is identified by the positions of its ends, so that both triangles at the edge, and all other surfaces that
+//! meet there, are halved alike.
 
 use glam::Vec3;
 use rustc_hash::FxHashSet;

@@ -1,10 +1,12 @@
 //! Elements by longest-edge bisection.
 //!
-//! A triangle whose longest edge exceeds the element size is halved at the midpoint of that edge, and so are its halves. Every
-//! edge that is too long is thereby split at its midpoint in both triangles that share it, so the mesh stays conforming
-//! although each triangle is cut by itself, and no angle falls below half the smallest angle of the input.
+//! A triangle whose longest edge exceeds the element size is halved at the midpoint of that edge, and so are its
+//! halves. Every edge that is too long is thereby split at its midpoint in both triangles that share it, so the mesh
+//! stays conforming although each triangle is cut by itself, and no angle falls below half the smallest angle of the
+//! input.
 //!
-//! Source: Rivara 1984, "Algorithms for refining triangular grids"; Baum, Mann, Smith, Winget 1991 (why T-vertices hurt).
+//! Source: Rivara 1984, "Algorithms for refining triangular grids"; Baum, Mann, Smith, Winget 1991 (why T-vertices
+//! hurt).
 
 use glam::Vec3;
 use rustc_hash::FxHashMap;
@@ -36,8 +38,8 @@ pub enum MeshError {
     Empty,
 }
 
-/// Cuts all triangles of the scene, at edges longer than the element size or among `splits`. Leaves optics and patches of the
-/// elements blank.
+/// Cuts all triangles of the scene, at edges longer than the element size or among `splits`. Leaves optics and patches
+/// of the elements blank.
 pub(super) fn subdivide(scene: &Scene, element_size: f32, splits: &Splits) -> Result<PatchMesh, MeshError> {
     if scene.triangles.is_empty() {
         return Err(MeshError::Empty);

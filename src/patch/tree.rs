@@ -5,8 +5,9 @@ use glam::Vec3;
 /// A node of a bisection tree in 32 bits.
 ///
 /// A triangle with corners `a, f, s`, apex first, is halved at the midpoint `m` of `f` and `s` into `(m, a, f)` and
-/// `(m, s, a)`: the newest corner comes first. In most triangles the newest corner is the apex after a level or two. If it is
-/// the apex for all levels below, and all leaves have one depth, the tree is regular and a single node describes it.
+/// `(m, s, a)`: the newest corner comes first. In most triangles the newest corner is the apex after a level or two. If
+/// it is the apex for all levels below, and all leaves have one depth, the tree is regular and a single node describes
+/// it.
 ///
 /// * `first element << 6 | depth << 2`: a regular tree of `2^depth` elements, a single element at depth 0;
 /// * `index of two children << 2 | apex + 1`: halved at the edge opposite corner `apex`.

@@ -58,15 +58,16 @@ impl Film {
         self.samples
     }
 
-    /// Linear radiance before exposure, premultiplied by the fourth channel, the share of the pixel that is covered; all 0
-    /// without samples.
+    /// Linear radiance before exposure, premultiplied by the fourth channel, the share of the pixel that is covered;
+    /// all 0 without samples.
     #[must_use]
     pub fn radiance(&self) -> Vec<[f32; 4]> {
         let count = self.samples.max(1) as f32;
         self.sums.iter().map(|[even, odd]| ((*even + *odd) / count).to_array()).collect()
     }
 
-    /// Adds `samples` rays a pixel through a box filter. Returns false if it was cancelled, and leaves the picture as it was.
+    /// Adds `samples` rays a pixel through a box filter. Returns false if it was cancelled, and leaves the picture as
+    /// it was.
     ///
     /// `radiance` returns the radiance along a camera ray, or `None` if the ray leaves the scene.
     pub(crate) fn refine(

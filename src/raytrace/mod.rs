@@ -1,10 +1,10 @@
 //! Floor 3: pictures and measurements by rays on the CPU.
 //!
 //! [`path_traced`] and [`irradiance()`] are unbiased estimates by path tracing, the reference for all other methods;
-//! [`two_pass()`] shows a bake with traced direct light and mirrors. Units and conventions are those of radiosity: a surface
-//! is single-sided unless its material says otherwise, a back blocks light and is black, and diffuse light leaves the
-//! geometric surface. Pictures are linear radiance. Deliberately absent: the GPU, exposure and tone mapping, light of
-//! punctual lights by way of mirrors.
+//! [`two_pass()`] shows a bake with traced direct light and mirrors. Units and conventions are those of radiosity: a
+//! surface is single-sided unless its material says otherwise, a back blocks light and is black, and diffuse light
+//! leaves the geometric surface. Pictures are linear radiance. Deliberately absent: the GPU, exposure and tone mapping,
+//! light of punctual lights by way of mirrors.
 //!
 //! * `ray`, `sampler`, `settings`: what all of it shares.
 //! * `surface/`: what a ray meets, and how light scatters there.

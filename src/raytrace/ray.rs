@@ -13,8 +13,8 @@ pub(crate) struct Ray {
 
 /// How the direction of a ray was chosen.
 ///
-/// It decides which share of a lamp's emission the ray accounts for when it meets the lamp: the rest is found by samples of
-/// the lamps (multiple importance sampling).
+/// It decides which share of a lamp's emission the ray accounts for when it meets the lamp: the rest is found by
+/// samples of the lamps (multiple importance sampling).
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum RaySource {
     /// By the camera. The ray passes through the backs of single-sided surfaces, into a room from outside.

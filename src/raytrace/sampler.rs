@@ -1,8 +1,8 @@
 //! Random numbers of paths: points of the unit square that are spread evenly over all paths of a pixel or point.
 //!
-//! Each decision of a path takes a pair of Sobol dimensions. Owen scrambling keeps their even spread (every 2^n points fill the
-//! elementary intervals of the square) and makes sequences with different seeds independent; shuffled indices make the
-//! decisions of one path independent.
+//! Each decision of a path takes a pair of Sobol dimensions. Owen scrambling keeps their even spread (every 2^n points
+//! fill the elementary intervals of the square) and makes sequences with different seeds independent; shuffled indices
+//! make the decisions of one path independent.
 //!
 //! Source: Burley 2020, "Practical Hash-based Owen Scrambling".
 

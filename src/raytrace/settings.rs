@@ -7,8 +7,8 @@ use glam::Vec3;
 pub struct PathSettings {
     /// Paths a pixel or point.
     pub samples: u32,
-    /// Most reflections between a lamp and the camera or the measured point; 0 leaves direct light at points, and only the
-    /// lamps in pictures.
+    /// Most reflections between a lamp and the camera or the measured point; 0 leaves direct light at points, and only
+    /// the lamps in pictures.
     pub max_bounces: u32,
     /// Metals and glass send light on. False gives what radiosity solves, where metals absorb and glass is opaque.
     pub has_specular: bool,
@@ -48,8 +48,8 @@ pub enum Ambient {
     Constant(Vec3),
     /// The indirect light of the bake.
     Indirect {
-        /// Rays of the final gather from the first diffuse surface, which take the light stored at the next one; 0 takes the
-        /// light stored at the first.
+        /// Rays of the final gather from the first diffuse surface, which take the light stored at the next one; 0
+        /// takes the light stored at the first.
         final_gather: u32,
     },
     /// All light of the bake, direct light included; lights are not traced.

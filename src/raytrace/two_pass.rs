@@ -1,12 +1,12 @@
 //! The second pass: ray tracing that takes its ambient light from radiosity.
 //!
-//! Light between the camera and the first diffuse surface depends on the view and is traced: direct light with shadow rays,
-//! mirrors, glossy metal, panes. Indirect light at that surface does not depend on the view and is solved in the first pass,
-//! radiosity; caustics, which radiosity lacks, are solved here before the first ray. With a constant in place of indirect
-//! light this is the classic ray tracing of Whitted 1980.
+//! Light between the camera and the first diffuse surface depends on the view and is traced: direct light with shadow
+//! rays, mirrors, glossy metal, panes. Indirect light at that surface does not depend on the view and is solved in the
+//! first pass, radiosity; caustics, which radiosity lacks, are solved here before the first ray. With a constant in
+//! place of indirect light this is the classic ray tracing of Whitted 1980.
 //!
-//! Sources: Whitted 1980, "An Improved Illumination Model for Shaded Display"; Wallace, Cohen, Greenberg 1987, "A Two-pass
-//! Solution to the Rendering Equation"; Smits, Arvo, Salesin 1992 (the final gather).
+//! Sources: Whitted 1980, "An Improved Illumination Model for Shaded Display"; Wallace, Cohen, Greenberg 1987, "A
+//! Two-pass Solution to the Rendering Equation"; Smits, Arvo, Salesin 1992 (the final gather).
 
 use std::f32::consts::{FRAC_1_PI, PI};
 
@@ -48,8 +48,8 @@ pub fn two_pass(
 
 /// The second pass over a bake, ready for pictures from any viewpoint.
 ///
-/// For a picture that improves while it is on the screen, [`Self::refine`] a [`Film`] by a few samples at a time and show
-/// [`Film::radiance`] after each call.
+/// For a picture that improves while it is on the screen, [`Self::refine`] a [`Film`] by a few samples at a time and
+/// show [`Film::radiance`] after each call.
 pub struct SecondPass<'a> {
     rays: RayCaster<'a>,
     stored: StoredLight<'a>,
@@ -59,8 +59,8 @@ pub struct SecondPass<'a> {
 impl<'a> SecondPass<'a> {
     /// Prepares the second pass over `baked`. Returns `None` if it was cancelled.
     ///
-    /// `tracer` must hold the elements of `baked`. Cost: seconds if there are mirrors or panes, whose caustics are solved
-    /// here; else next to nothing.
+    /// `tracer` must hold the elements of `baked`. Cost: seconds if there are mirrors or panes, whose caustics are
+    /// solved here; else next to nothing.
     #[must_use]
     pub fn new(
         tracer: &'a Tracer<'a>,
@@ -124,8 +124,8 @@ impl<'a> SecondPass<'a> {
         }
     }
 
-    /// Indirect radiance from one cosine-distributed direction of the hemisphere: what the surface there reflects of the
-    /// stored light. Emission does not count, because lamps are direct light.
+    /// Indirect radiance from one cosine-distributed direction of the hemisphere: what the surface there reflects of
+    /// the stored light. Emission does not count, because lamps are direct light.
     fn gathered(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
         if surface.reflectance == Vec3::ZERO {
             return Vec3::ZERO;

@@ -1,8 +1,9 @@
-//! Floor 2: rays on the CPU: nearest hits and how much light passes between two points.
+//! Floor 2: rays on the CPU: the nearest hit, and how much light passes between two points.
 //!
-//! Used for direct light, the hemisphere method, collision in the viewer and ray-traced truth.
+//! Direct light, the hemisphere method, collision in the viewer and the ray tracers use it. `tracer`: queries on a
+//! scene, with alpha. `wide/`: the bounding volume hierarchy.
 
-pub mod bvh;
+mod tracer;
 mod wide;
 
-pub use bvh::{Hit, Tracer};
+pub use tracer::{Hit, Tracer};

@@ -19,7 +19,7 @@ fn furnace_mesh() -> (hemicube::scene::Scene, PatchMesh) {
 }
 
 #[test]
-fn the_tree_finds_the_element_that_holds_a_point() {
+fn the_tree_finds_the_element_that_contains_a_point() {
     let (scene, mesh) = furnace_mesh();
     for t in 0..scene.triangles.len() {
         let triangle = TriangleId::new(t);
@@ -39,7 +39,7 @@ fn the_tree_finds_the_element_that_holds_a_point() {
     }
 }
 
-/// The room is closed: an edge that only one element uses would be a T-vertex.
+/// In a closed room, an edge of only one element would contain a T-vertex.
 #[track_caller]
 fn assert_conforming(mesh: &PatchMesh) {
     let mut uses: HashMap<[[u32; 3]; 2], usize> = HashMap::new();

@@ -1,9 +1,10 @@
-//! The bisection trees of a mesh, found again from its triangles.
+//! The forest of all bisection trees of a mesh, with the corners of every node.
 //!
-//! A bake has the elements of an input triangle one behind the other, halves of halves (`patch::subdivide`). So two
-//! neighbours in the order of triangles that share an edge from the middle of their common base to their common apex are
-//! halves of one triangle, and so on upwards. Of meshes that were never bisected a few pairs look so too, which does no harm:
-//! whatever is linear in such a pair is linear in the triangle that they make.
+//! The trees are those that the bake keeps ([`BisectionTrees`]). For files that do not record them they are guessed:
+//! the elements of an input triangle follow each other, halves of halves (`patch::subdivide`), so two consecutive
+//! triangles that share an edge from the middle of their common base to their common apex are halves of one triangle,
+//! and so on upwards. A few pairs of triangles that were never bisected look like this too. That does no harm, because
+//! a function that is linear on both is linear on the triangle that they make up.
 
 use glam::{IVec2, Vec2, Vec3, Vec4};
 
@@ -11,29 +12,29 @@ use crate::baked::bisection_trees::{BisectionTrees, Halving};
 use crate::base::ids::TriangleId;
 use crate::scene::{AlphaMode, Scene, Triangle};
 
-/// How far the middle of an edge may be from where it belongs: rounding of the transforms that a file went through.
+/// Distance of a vertex from the middle of an edge, relative to its length, that is rounding of transforms.
 const ROUNDING: f32 = 1e-5;
-/// How far colours may be, which files keep in as little as eight bits.
+/// Deviation of colours, which files may store in eight bits.
 const COLOUR_ROUNDING: f32 = 4e-3;
-/// Least cosine between a shading normal and that of the edge it lies on.
+/// Smallest cosine between the shading normals of a vertex and of the edge that it lies on.
 const SAME_NORMAL: f32 = 0.999;
 
-/// A triangle of the mesh, or one that two others make up.
+/// A triangle of the mesh, or one that two nodes make up.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node {
-    /// Vertices of the scene. Where there are halves the apex comes first.
+    /// Vertices of the scene. If there are halves, the apex comes first.
     pub corners: [u32; 3],
-    /// The other two corners end the edge that was halved.
+    /// The two nodes that make it up. `None` for a triangle of the mesh.
     pub halves: Option<Halves>,
-    /// Triangles of the mesh that it is made of.
+    /// Number of triangles of the mesh that make it up.
     pub num_elements: u32,
 }
 
-/// The two nodes that make up one.
+/// The two halves of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Halves {
     pub nodes: [u32; 2],
-    /// Vertex in the middle of the edge that was halved.
+    /// Vertex in the middle of the edge opposite the apex.
     pub middle: u32,
 }
 
@@ -42,7 +43,7 @@ pub(super) struct Halves {
 pub(super) struct Forest {
     /// First the triangles of the mesh, in their order.
     pub nodes: Vec<Node>,
-    /// The node that each is a half of.
+    /// The node that each node is a half of. `None` for a root.
     pub parents: Vec<Option<u32>>,
 }
 
@@ -117,12 +118,12 @@ impl Forest {
         number
     }
 
-    /// Corners, apex first, of the triangle that two nodes are the halves of, and the vertex in the middle of its base. `None` if
-    /// they are not.
+    /// Corners, apex first, of the triangle that two nodes are the halves of, and the vertex in the middle of its base.
+    /// `None` if they are not.
     fn pair(&self, scene: &Scene, nodes: [u32; 2]) -> Option<([u32; 3], u32)> {
         let [first, second] = nodes.map(|node| &self.nodes[node as usize]);
         let (i, j) = (0..9).map(|k| (k / 3, k % 3)).find(|&(i, j)| {
-            // The same edge, the other way round.
+            // The same edge in the opposite direction.
             first.corners[i] == second.corners[(j + 1) % 3] && first.corners[(i + 1) % 3] == second.corners[j]
         })?;
         let (from, to) = (first.corners[i], first.corners[(i + 1) % 3]);
@@ -136,7 +137,7 @@ impl Forest {
         }
     }
 
-    /// One of the triangles of the mesh that make up a node.
+    /// The first of the triangles of the mesh that make up a node.
     pub fn some_element(&self, mut node: u32) -> u32 {
         while let Some(halves) = self.nodes[node as usize].halves {
             [node, _] = halves.nodes;
@@ -144,11 +145,12 @@ impl Forest {
         node
     }
 
-    /// Tells the triangles of the mesh that make up a node, and the places of their corners, given the places of the node's.
-    pub fn visit(&self, node: u32, places: [IVec2; 3], tell: &mut impl FnMut(u32, [IVec2; 3])) {
+    /// Visits the triangles of the mesh that make up a node, with the grid positions of their corners. `places` are
+    /// those of the corners of the node.
+    pub fn visit(&self, node: u32, places: [IVec2; 3], visit: &mut impl FnMut(u32, [IVec2; 3])) {
         let Node { corners, halves, .. } = &self.nodes[node as usize];
         let Some(Halves { nodes, middle }) = *halves else {
-            return tell(node, places);
+            return visit(node, places);
         };
         let place_of = |vertex: u32| match corners.iter().position(|&corner| corner == vertex) {
             Some(k) => places[k],
@@ -156,7 +158,7 @@ impl Forest {
         };
         debug_assert!(!corners.contains(&middle));
         for half in nodes {
-            self.visit(half, self.nodes[half as usize].corners.map(place_of), tell);
+            self.visit(half, self.nodes[half as usize].corners.map(place_of), visit);
         }
     }
 }
@@ -166,7 +168,8 @@ fn blends(scene: &Scene, triangle: TriangleId) -> bool {
     scene.material_of(triangle).alpha_mode == AlphaMode::Blend
 }
 
-/// A vertex lies in the middle of an edge in all that is linear in a triangle, and has a normal that suits.
+/// Position, texture coordinates and colour of a vertex are the means of those of the ends of an edge, and its normal
+/// is near their mean normal.
 fn is_middle(scene: &Scene, vertex: u32, ends: [u32; 2]) -> bool {
     let middle = &scene.vertices[vertex as usize];
     let [a, b] = ends.map(|end| &scene.vertices[end as usize]);

@@ -8,30 +8,30 @@ use super::tiles::{Filling, Layout};
 use crate::baked::bisection_trees::BisectionTrees;
 use crate::scene::{Scene, Triangle};
 
-/// Texels across and down at most: 256 MiB of light.
+/// Largest width and height of the texture: 256 MiB of light.
 const MAX_SIDE: u32 = 5792;
-/// Texels for each element at most: more give fewer triangles, which hardly draw sooner.
+/// Most texels per element. More would give fewer triangles, but hardly faster pictures.
 const MAX_TEXELS_PER_ELEMENT: u64 = 32;
-/// Coarse triangles for each element at most: more than that are not worth a texture.
+/// Most coarse triangles per element; more are not worth a texture.
 const WORTH_WHILE: f32 = 0.75;
 
 /// A mesh of fewer triangles over the vertices of a scene.
 pub(crate) struct CoarseMesh {
-    /// Triangles of the scene's vertices; first those with tiles, then triangles of the scene as they are.
+    /// Triangles over the vertices of the scene: first those with tiles, then unchanged triangles of the scene.
     pub triangles: Vec<Triangle>,
-    /// The tiles of those that have one.
+    /// The tiles of the first triangles.
     pub tiles: Vec<Tile>,
     /// Texels across and down the texture.
     pub side: u32,
     /// The elements in tiles.
     pub elements: Vec<ElementTexels>,
-    /// Index of the element that each texel is of, row by row.
+    /// Index of the element of each texel, row by row.
     pub element_of: Vec<u32>,
-    /// Texels that the long sides of tiles ask for beside them.
+    /// Texels beyond the long sides of tiles, which are extrapolated.
     pub beyond: Vec<UVec2>,
 }
 
-/// Where in the texture the light of a triangle is.
+/// The place in the texture of the light of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tile {
     /// The texel of its first corner.
@@ -49,18 +49,18 @@ pub(crate) struct ElementTexels {
 }
 
 impl CoarseMesh {
-    /// The coarse mesh of a scene of elements, with their bisection trees if these are known. `None` if the mesh would not be
-    /// much smaller, or the texture would be wider or higher than `max_side`.
+    /// The coarse mesh of a scene of elements, with their bisection trees if these are known. `None` if the mesh would
+    /// not be much smaller, or the texture would be wider or higher than `max_side`.
     pub fn new(scene: &Scene, trees: Option<&BisectionTrees>, max_side: u32) -> Option<Self> {
         let forest = Forest::new(scene, trees);
         let num_elements = scene.triangles.len();
-        // Most have far fewer texels than the most.
+        // Most tiles have far fewer texels than the limit.
         let per_element = (2 * u64::from(MAX_SIDE).pow(2) / num_elements.max(1) as u64).min(MAX_TEXELS_PER_ELEMENT);
         let mut wholes = coarsen(scene, &forest, per_element);
         if wholes.len() as f32 >= WORTH_WHILE * num_elements as f32 {
             return None;
         }
-        // Those of one element keep it.
+        // Triangles of a single element have no tile.
         wholes.sort_by_key(|whole| forest.nodes[whole.node as usize].halves.is_none());
         let num_tiles = wholes.partition_point(|whole| forest.nodes[whole.node as usize].halves.is_some());
         let layout = Layout::new(&wholes[..num_tiles]);

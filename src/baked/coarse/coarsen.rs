@@ -1,10 +1,12 @@
-//! Which triangles of the bisection trees are drawn whole, so that there are few and the mesh stays without gaps.
+//! Chooses the nodes of the bisection trees that are drawn as one triangle, so that there are few and the mesh has no
+//! gaps.
 //!
-//! A vertex in the middle of an edge goes where all triangles that touch it are halves round it, whose other halves touch it
-//! too: then all of them are put together at once, on both sides of the edge. What was conforming stays so, whatever else
-//! touches the edge. The shortest edges go first.
+//! A vertex in the middle of an edge can be removed if all triangles that touch it are halves round it: then all pairs
+//! of halves, on both sides of the edge, are joined at once, and the mesh stays conforming. Vertices of the shortest
+//! edges are removed first.
 //!
-//! Source: Chen, Zhang 2010, "A coarsening algorithm on adaptive grids by newest vertex bisection and its applications".
+//! Source: Chen, Zhang 2010, "A coarsening algorithm on adaptive grids by newest vertex bisection and its
+//! applications".
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -16,9 +18,9 @@ use rustc_hash::FxHashMap;
 use super::bisection::{Forest, Halves};
 use crate::scene::Scene;
 
-/// Largest power of two that the sides of a tile are cut into.
+/// Largest level of a tile: its sides are cut into `2^level` parts.
 pub(super) const MAX_LEVEL: u32 = 7;
-/// Power of two that corners of a node are apart while its level is found; what is finer asks for too large a tile anyway.
+/// Level of the grid on which the level of a node is found; finer elements need too large a tile anyway.
 const FINEST: u32 = 20;
 
 /// A node that is drawn as one triangle.
@@ -29,12 +31,12 @@ pub(super) struct Whole {
     pub level: u32,
 }
 
-/// Texels of a tile: its grid, and a margin of one.
+/// Number of texels of a tile: its grid and a margin of one texel.
 pub(super) const fn num_texels(level: u32) -> u64 {
     ((1 << level) + 3) * ((1 << level) + 3)
 }
 
-/// Puts triangles together as long as their tiles take no more than so many texels for each element in them.
+/// Joins triangles as long as their tiles have at most this many texels per element.
 pub(super) fn coarsen(scene: &Scene, forest: &Forest, texels_per_element: u64) -> Vec<Whole> {
     let mut coarsening = Coarsening::new(scene, forest);
     let mut queue: BinaryHeap<_> = (0..coarsening.halved_at.len() as u32)
@@ -55,14 +57,14 @@ pub(super) fn coarsen(scene: &Scene, forest: &Forest, texels_per_element: u64) -
 struct Coarsening<'a> {
     scene: &'a Scene,
     forest: &'a Forest,
-    /// Place of each vertex `[v]`: vertices of one position have one.
+    /// Place of each vertex `[v]`: vertices with one position have one place.
     place_of: Vec<u32>,
-    /// How many whole triangles touch each place.
+    /// Number of whole triangles that touch each place.
     touching: Vec<u32>,
-    /// Nodes that are halved at each place: a range of `halved`.
+    /// Nodes that are halved at each place, a range of `halved`.
     halved_at: Vec<Range<u32>>,
     halved: Vec<u32>,
-    /// Levels of the nodes that are whole now.
+    /// Levels of the nodes that are whole at present. `None` for the others.
     levels: Vec<Option<u32>>,
 }
 
@@ -71,7 +73,7 @@ impl<'a> Coarsening<'a> {
         let mut places: FxHashMap<[u32; 3], u32> = FxHashMap::default();
         let mut place_at = |position: Vec3| {
             let next = places.len() as u32;
-            // Adding zero makes -0 and +0 one place.
+            // Adding zero turns -0 into +0.
             *places.entry((position + Vec3::ZERO).to_array().map(f32::to_bits)).or_insert(next)
         };
         let place_of: Vec<u32> = scene.vertices.iter().map(|vertex| place_at(vertex.position)).collect();
@@ -104,14 +106,14 @@ impl<'a> Coarsening<'a> {
         self.place_of[self.halves(node).middle as usize]
     }
 
-    /// Bits of the length of the edge with its middle there, which order as the lengths do.
+    /// Bits of the length of the edge whose middle is a place; they are ordered as the lengths are.
     fn length_at(&self, place: u32) -> u32 {
         let node = self.halved[self.halved_at[place as usize].start as usize];
         let [_, from, to] = self.forest.nodes[node as usize].corners.map(|v| self.scene.vertices[v as usize].position);
         from.distance(to).to_bits()
     }
 
-    /// Puts together what is halved at a place, where nothing is against it; tells the nodes above.
+    /// Joins all halves at a place if that is possible, and returns the parents of the joined nodes.
     fn remove(&mut self, place: u32, texels_per_element: u64) -> Vec<u32> {
         let range = self.halved_at[place as usize].clone();
         let nodes = self.halved[range.start as usize..range.end as usize].to_vec();
@@ -136,7 +138,7 @@ impl<'a> Coarsening<'a> {
         nodes.into_iter().filter_map(|node| self.forest.parents[node as usize]).collect()
     }
 
-    /// The level of a node's grid: the finest that any corner of its elements asks for.
+    /// The level of the grid of a node: the coarsest on which all corners of its elements lie.
     fn level(&self, node: u32) -> u32 {
         let mut odd = 0;
         let corners = [IVec2::ZERO, IVec2::new(1 << FINEST, 0), IVec2::new(0, 1 << FINEST)];

@@ -1,10 +1,11 @@
 //! A coarse mesh of a bake, whose triangles have the light of their elements in tiles of a texture.
 //!
-//! A bake has many times as many triangles as its scene, because light changes faster than surfaces do. A picture does not
-//! need them: interpolation between texels of a tile shows the same as interpolation between the vertices of elements.
+//! A bake has many times as many triangles as its scene, because light changes faster than surfaces do. A picture does
+//! not need them: interpolation between texels of a tile shows the same as interpolation between the vertices of
+//! elements.
 //!
-//! * `bisection`: the bisection trees of the elements. `coarsen`: which of their nodes are drawn as one triangle. `tiles`:
-//!   the light of these in a texture. `coarse_mesh`: all of it together.
+//! * `bisection`: the bisection trees of the elements. `coarsen`: which of their nodes are drawn as one triangle.
+//!   `tiles`: the light of these in a texture. `coarse_mesh`: all of it together.
 
 mod bisection;
 mod coarse_mesh;

@@ -53,7 +53,7 @@ fn the_coarse_mesh_has_the_same_surfaces_in_fewer_triangles() {
 }
 
 #[test]
-fn no_corner_that_was_on_an_edge_is_left_there_alone() {
+fn no_vertex_is_left_in_the_middle_of_an_edge() {
     let elements = elements_of(&builtin::cornell(), 0.1);
     let coarse = CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake");
     let bits = |p: Vec3| (p + Vec3::ZERO).to_array().map(f32::to_bits);
@@ -72,7 +72,7 @@ fn no_corner_that_was_on_an_edge_is_left_there_alone() {
 }
 
 #[test]
-fn a_vertex_that_something_else_touches_stays() {
+fn a_vertex_that_another_triangle_touches_is_not_removed() {
     let mut elements = elements_of(&builtin::cornell(), 0.2);
     // The edge between floor and back wall has its middle here.
     let middle = Vec3::new(2.748, 0.0, 5.592);
@@ -124,7 +124,7 @@ fn sampled(texture: &[f32], side: u32, at: Vec2) -> f32 {
 }
 
 #[test]
-fn light_that_is_linear_on_a_surface_comes_out_of_its_tile_as_it_is() {
+fn tiles_reproduce_light_that_is_linear_on_a_surface() {
     let elements = elements_of(&builtin::cornell(), 0.1);
     let coarse = CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake");
     let light = |p: Vec3| 1.0 + p.dot(Vec3::new(3.0, 5.0, -2.0));
@@ -142,7 +142,7 @@ fn light_that_is_linear_on_a_surface_comes_out_of_its_tile_as_it_is() {
 }
 
 #[test]
-fn both_sides_of_an_edge_show_the_same_light_along_it() {
+fn both_sides_of_an_edge_show_the_same_light() {
     let elements = elements_of(&builtin::cornell(), 0.1);
     let coarse = CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake");
     // Anything that depends on the place alone and is not smooth.
@@ -170,7 +170,7 @@ fn both_sides_of_an_edge_show_the_same_light_along_it() {
 }
 
 #[test]
-fn what_blends_is_not_put_together() {
+fn triangles_that_blend_are_not_joined() {
     let mut scene = builtin::cornell();
     for material in &mut scene.materials {
         material.alpha_mode = AlphaMode::Blend;
@@ -179,13 +179,13 @@ fn what_blends_is_not_put_together() {
 }
 
 #[test]
-fn a_scene_as_it_was_loaded_or_none_at_all_has_no_coarse_mesh() {
+fn scenes_that_are_no_bakes_have_no_coarse_mesh() {
     assert!(CoarseMesh::new(&builtin::gallery(), None, MAX_SIDE).is_none());
     assert!(CoarseMesh::new(&Scene::default(), None, MAX_SIDE).is_none());
 }
 
 #[test]
-fn a_texture_that_no_device_holds_is_not_made() {
+fn a_texture_larger_than_the_limit_is_not_made() {
     let elements = elements_of(&builtin::cornell(), 0.1);
     assert!(CoarseMesh::new(&elements, None, 100).is_none());
 }

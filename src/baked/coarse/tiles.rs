@@ -1,9 +1,10 @@
-//! Tiles: where in a texture the light of each coarse triangle lies, and which element each texel is of.
+//! Tiles: the place in a texture of the light of each coarse triangle, and the element of each texel.
 //!
-//! A tile is a square grid with the corners of its triangle at (0, 0), (n, 0) and (0, n), so that corners of elements fall on
-//! texels and a triangle that is sampled with bilinear weights between them shows what its elements would. On the long side
-//! such weights ask for texels beyond it, which go on as the three before them do: between two texels of an edge light is
-//! linear then, and equal on both sides of the edge. A margin of one texel lies round each tile, since devices round weights.
+//! A tile is a square grid with the corners of its triangle at (0, 0), (n, 0) and (0, n), so that corners of elements
+//! lie on texels and bilinear interpolation between them shows the same as interpolation on the elements. At the long
+//! side bilinear interpolation reads a texel beyond it, which is extrapolated from three texels: t(x, y) = t(x - 1, y)
+//! + t(x, y - 1) - t(x - 1, y - 1). Light is then linear between two texels of an edge, and equal on both sides of the
+//! edge. A margin of one texel surrounds each tile, because devices round weights.
 //!
 //! Source: Bastos, Goslin, Zhang 1997, "Efficient rendering of radiosity using textures and bicubic reconstruction".
 
@@ -12,11 +13,11 @@ use glam::{IVec2, UVec2};
 use super::bisection::Forest;
 use super::coarsen::{MAX_LEVEL, Whole, num_texels};
 
-/// The element of texels without one. As in shaders/stored_light/light_tiles.wgsl.
+/// Marks a texel without an element, as in shaders/stored_light/light_tiles.wgsl.
 pub(crate) const NOTHING: u32 = u32::MAX;
-/// Textures are a multiple of this wide.
+/// Divisor of the width of a texture.
 const STEP: u32 = 64;
-/// Least texels across: the largest tile fits.
+/// Smallest width of a texture, in which the largest tile fits.
 const MIN_SIDE: u32 = num_texels(MAX_LEVEL).isqrt() as u32;
 
 /// A square texture of tiles.
@@ -29,7 +30,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Room for tiles of these levels, the largest first, in rows.
+    /// Arranges tiles of these levels in rows, the largest first.
     pub fn new(wholes: &[Whole]) -> Self {
         let mut order: Vec<usize> = (0..wholes.len()).collect();
         order.sort_by_key(|&tile| std::cmp::Reverse(wholes[tile].level));
@@ -42,7 +43,7 @@ impl Layout {
         layout
     }
 
-    /// Places tiles in this order and tells how many texels down they reach.
+    /// Arranges tiles in this order and returns the height of all rows.
     fn place(&mut self, wholes: &[Whole], order: &[usize]) -> u32 {
         let (mut next, mut height) = (UVec2::ZERO, 0);
         for &tile in order {
@@ -67,14 +68,14 @@ pub(super) struct TileElement {
     pub corners: [UVec2; 3],
 }
 
-/// The elements of all tiles, and for each texel the element that it is of.
+/// The elements of all tiles, and the element of each texel.
 #[derive(Debug, Default)]
 pub(super) struct Filling {
     width: u32,
     pub elements: Vec<TileElement>,
     /// Row by row.
     pub element_of: Vec<u32>,
-    /// Texels next to two on the long side of a tile.
+    /// Texels beyond the long side of a tile, next to two texels on it.
     pub beyond: Vec<UVec2>,
 }
 
@@ -98,7 +99,7 @@ impl Filling {
         &mut self.element_of[(at.y as u32 * self.width + at.x as u32) as usize]
     }
 
-    /// Gives an element the texels in it and on its edges.
+    /// Assigns the texels within an element and on its edges to it.
     fn add(&mut self, triangle: u32, corners: [IVec2; 3]) {
         let number = self.elements.len() as u32;
         self.elements.push(TileElement { triangle, corners: corners.map(|corner| corner.as_uvec2()) });
@@ -117,7 +118,7 @@ impl Filling {
         }
     }
 
-    /// The texels round a tile go on with the nearest of its elements, and those beyond its long side with three texels.
+    /// Assigns the texels of the margin to the nearest element, and lists those beyond the long side.
     fn add_margin(&mut self, origin: IVec2, side: i32) {
         for y in -1..=side + 1 {
             for x in -1..=side + 1 {

@@ -1,4 +1,4 @@
-//! The binary half of a .glb: arrays of numbers, laid end to end.
+//! The binary part of a .glb: arrays of numbers, one after the other.
 
 use serde_json::{Value, json};
 
@@ -8,7 +8,7 @@ const COMPONENT_F32: u32 = 5126;
 const TARGET_VERTICES: u32 = 34962;
 const TARGET_INDICES: u32 = 34963;
 
-/// Bytes so far, with the views and accessors that point into them.
+/// Bytes so far, with the buffer views and accessors that refer to them.
 #[derive(Default)]
 pub(super) struct Binary {
     pub(super) bytes: Vec<u8>,
@@ -17,7 +17,7 @@ pub(super) struct Binary {
 }
 
 impl Binary {
-    /// Adds a vertex attribute of N floats a vertex and returns its accessor.
+    /// Adds a vertex attribute of N floats per vertex and returns its accessor.
     pub(super) fn push_attribute<const N: usize>(&mut self, values: impl Iterator<Item = [f32; N]>) -> usize {
         let values: Vec<[f32; N]> = values.collect();
         let view = self.push_view(bytemuck::cast_slice(values.as_flattened()), Some(TARGET_VERTICES));
@@ -27,7 +27,7 @@ impl Binary {
         }))
     }
 
-    /// Adds colours of 0 to 1 in 16 bits a channel.
+    /// Adds colours of 0 to 1 with 16 bits per channel and returns their accessor.
     pub(super) fn push_colours(&mut self, colours: impl Iterator<Item = [f32; 4]>) -> usize {
         let short: Vec<[u16; 4]> = colours.map(|colour| colour.map(|x| (x * 65_535.0).round() as u16)).collect();
         let view = self.push_view(bytemuck::cast_slice(short.as_flattened()), Some(TARGET_VERTICES));
@@ -36,7 +36,7 @@ impl Binary {
         }))
     }
 
-    /// Adds positions; glTF wants to know their bounds. There must be at least one.
+    /// Adds positions, at least one, with the bounds that glTF requires, and returns their accessor.
     pub(super) fn push_positions(&mut self, positions: impl Iterator<Item = [f32; 3]> + Clone) -> usize {
         let bound = |pick: fn(f32, f32) -> f32| -> [f32; 3] {
             let fold = |a: [f32; 3], b: [f32; 3]| std::array::from_fn(|axis| pick(a[axis], b[axis]));
@@ -49,7 +49,8 @@ impl Binary {
         accessor
     }
 
-    /// Adds triangle indices, two bytes each where that is enough (the largest value is reserved).
+    /// Adds triangle indices, of two bytes if that is enough (the largest value is reserved), and returns their
+    /// accessor.
     pub(super) fn push_indices(&mut self, indices: &[u32], num_vertices: usize) -> usize {
         let (view, component) = if num_vertices <= usize::from(u16::MAX) {
             let short: Vec<u16> = indices.iter().map(|&index| index as u16).collect();
@@ -62,13 +63,13 @@ impl Binary {
         }))
     }
 
-    /// Adds the bytes of a file, such as an image, and returns its buffer view.
+    /// Adds the bytes of a file, such as an image, and returns their buffer view.
     pub(super) fn push_file(&mut self, bytes: &[u8]) -> usize {
         self.push_view(bytes, None)
     }
 
     fn push_view(&mut self, bytes: &[u8], target: Option<u32>) -> usize {
-        // Every array begins at a multiple of four, the largest component size.
+        // Every array starts at a multiple of four, the largest component size.
         self.bytes.resize(self.bytes.len().next_multiple_of(4), 0);
         let mut view = json!({ "buffer": 0, "byteOffset": self.bytes.len(), "byteLength": bytes.len() });
         if let Some(target) = target {

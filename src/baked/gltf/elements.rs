@@ -1,16 +1,18 @@
-//! What a bake keeps of its elements in the `extras` of primitives: bisection trees, and which backs belong to which fronts.
+//! What a bake keeps of its elements in the `extras` of primitives: bisection trees, and which backs belong to which
+//! fronts.
 //!
 //! A primitive of a bake has an object `elements`:
 //!
 //! * `version`: 1. Records of other versions are ignored.
-//! * `trees`: the bisection trees of its triangles, one after the other, each in preorder, one character a node: `a` to `p` is a
-//!   regular tree of 2^0 to 2^15 triangles, all halved opposite their first corner; `0`, `1` or `2` is a triangle halved opposite
-//!   that corner, and the trees of its two halves follow. The triangles of the primitive are the leaves, in this order.
-//! * `back_of`: 1 if the triangles are the backs of those of the primitive before, one by one, with corners `[a, c, b]` in the
-//!   place of `[a, b, c]`; generally the number of primitives from the fronts to the backs.
+//! * `trees`: the bisection trees of its triangles, one after the other, each in preorder, one character a node: `a` to
+//!   `p` is a regular tree of 2^0 to 2^15 triangles, all halved opposite their first corner; `0`, `1` or `2` is a
+//!   triangle halved opposite that corner, and the trees of its two halves follow. The triangles of the primitive are
+//!   the leaves, in this order.
+//! * `back_of`: 1 if the triangles are the backs of those of the primitive before, one by one, with corners `[a, c, b]`
+//!   in the place of `[a, b, c]`; generally the number of primitives from the fronts to the backs.
 //!
-//! Programs that change meshes may leave records that fit no longer, so all is checked against the triangles. Whatever does not
-//! fit is found anew from the triangles, as it is for files without records.
+//! Programs that change meshes may leave records that fit no longer, so all is checked against the triangles. Whatever
+//! does not fit is found anew from the triangles, as it is for files without records.
 
 use std::collections::HashMap;
 
@@ -37,8 +39,8 @@ impl<'a> Elements<'a> {
         Self { scene, trees: trees.map(|trees| trees.iter().map(|tree| (tree.elements.start, tree)).collect()) }
     }
 
-    /// The record of a primitive of these triangles; `fronts` are those of the primitive before if the triangles may be their
-    /// backs. `None` if there is nothing to record.
+    /// The record of a primitive of these triangles; `fronts` are those of the primitive before if the triangles may be
+    /// their backs. `None` if there is nothing to record.
     pub(super) fn record(&self, triangles: &[TriangleId], fronts: Option<&[TriangleId]>) -> Option<Value> {
         let mut record = json!({ "version": VERSION });
         if let Some(trees) = &self.trees {

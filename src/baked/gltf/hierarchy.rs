@@ -1,4 +1,5 @@
-//! The tree of nodes that a bake keeps, with their transforms: other programs find each mesh, light and camera where it was.
+//! The tree of nodes, which a bake keeps with its transforms, so that other programs find each mesh, light and camera
+//! in its place.
 
 use std::ops::Range;
 
@@ -8,32 +9,33 @@ use serde_json::{Value, json};
 use super::json::named;
 use crate::scene::{Instance, Scene, Transform, is_degenerate, is_placeable};
 
-/// Volume that a transform leaves of a cube as large as its longest axis, below which it flattens things.
+/// Volume of a transformed unit cube relative to the cube of its longest edge, below which the transform counts as
+/// flat.
 const FLAT: f64 = 1e-9;
 
 /// A node that is written.
 pub(super) struct Branch {
     pub name: String,
-    /// The branch above, which comes before.
+    /// Index of the parent, which comes before. `None` for a root.
     pub parent: Option<usize>,
-    /// Its triangles, a range of the scene's; empty for a mere name.
+    /// Its triangles in the scene; empty if it has no mesh.
     pub triangles: Range<usize>,
-    /// The light that it carries.
+    /// Index of its light, if it has one.
     pub light: Option<usize>,
-    /// The camera that it carries.
+    /// Index of its camera, if it has one.
     pub camera: Option<usize>,
     pub space: Space,
     transform: Transform,
 }
 
-/// The space in which a node tells its mesh.
+/// The space of a node, in which its mesh is written.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) struct Space {
     world_from_node: DAffine3,
     node_from_world: DAffine3,
 }
 
-/// The branches of a scene; without a tree, every instance is one.
+/// The branches of a scene. Every instance is a branch if the scene has no node tree.
 pub(super) fn branches(scene: &Scene) -> Vec<Branch> {
     if scene.nodes.is_empty() {
         let shown = scene.instances.iter().filter(|instance| !instance.triangles.is_empty());
@@ -46,7 +48,7 @@ pub(super) fn branches(scene: &Scene) -> Vec<Branch> {
         let world_from_node = above * node.transform.parent_from_node();
         world_from_nodes.push(world_from_node);
         let is_kept = is_invertible(world_from_node.matrix3);
-        // What flattens its mesh cannot be undone: such a node is brought back to the world, and all below it too.
+        // A flat transform has no inverse: such a node and all below it are written in world space.
         let written_above = node.parent.map_or(Space::WORLD, |parent| branches[parent].space);
         let transform = if is_kept { node.transform } else { Transform::from_affine(written_above.node_from_world) };
         branches.push(Branch {
@@ -59,13 +61,13 @@ pub(super) fn branches(scene: &Scene) -> Vec<Branch> {
             transform,
         });
     }
-    bring_back_what_rounding_would_lose(scene, &mut branches);
+    move_to_world_what_rounding_would_lose(scene, &mut branches);
     branches
 }
 
-/// Meshes far from their node, as skins may pose them, lose slivers to rounding in its space: they get a node of the same name
-/// in the world instead.
-fn bring_back_what_rounding_would_lose(scene: &Scene, branches: &mut Vec<Branch>) {
+/// Gives meshes whose slivers would be lost to rounding in the space of their node, for instance skinned meshes far
+/// from it, a node of the same name in world space.
+fn move_to_world_what_rounding_would_lose(scene: &Scene, branches: &mut Vec<Branch>) {
     for n in 0..branches.len() {
         if !branches[n].space.keeps(scene, &branches[n].triangles) {
             let triangles = std::mem::take(&mut branches[n].triangles);
@@ -94,7 +96,7 @@ impl Branch {
         }
     }
 
-    /// The node as glTF tells it, without what hangs on it.
+    /// The node as a glTF object, without mesh, light, camera and children.
     pub(super) fn node(&self) -> Value {
         let mut node = named(&self.name);
         match self.transform {
@@ -117,7 +119,7 @@ impl Space {
         Self { world_from_node, node_from_world: world_from_node.inverse() }
     }
 
-    /// Every triangle of the world is still one after the way into this space and back.
+    /// No triangle becomes degenerate by the transform into this space and back.
     fn keeps(&self, scene: &Scene, triangles: &Range<usize>) -> bool {
         let back = |v: u32| {
             let local = self.position(scene.vertices[v as usize].position);
@@ -130,17 +132,17 @@ impl Space {
         *self == Self::WORLD || scene.triangles[triangles.clone()].iter().all(is_kept)
     }
 
-    /// What is a front in the world is a back in the node.
+    /// The transform inverts the winding of triangles.
     pub(super) fn is_mirrored(&self) -> bool {
         self.world_from_node.matrix3.determinant() < 0.0
     }
 
-    /// A point of the world.
+    /// Transforms a point from world space.
     pub(super) fn position(&self, in_world: Vec3) -> Vec3 {
         self.node_from_world.transform_point3(in_world.as_dvec3()).as_vec3()
     }
 
-    /// A unit normal of the world.
+    /// Transforms a unit normal from world space.
     pub(super) fn normal(&self, in_world: Vec3) -> Vec3 {
         if self.world_from_node == DAffine3::IDENTITY {
             return in_world;
@@ -149,7 +151,7 @@ impl Space {
     }
 }
 
-/// Instances lie side by side, and so do their triangles.
+/// The triangles of consecutive instances, which are consecutive as well.
 fn triangles_of(scene: &Scene, instances: &Range<usize>) -> Range<usize> {
     let shown = &scene.instances[instances.clone()];
     match (shown.first(), shown.last()) {
@@ -158,7 +160,7 @@ fn triangles_of(scene: &Scene, instances: &Range<usize>) -> Range<usize> {
     }
 }
 
-/// A node without a name takes that of what it shows.
+/// The name of a node, or of its first instance if it has none.
 fn name_of(scene: &Scene, n: usize) -> String {
     let node = &scene.nodes[n];
     match scene.instances[node.instances.clone()].first() {

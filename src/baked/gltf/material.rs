@@ -15,7 +15,7 @@ use super::json::{Extensions, named};
 use super::{node, unlit};
 use crate::scene::{AlphaMode, Image, Material, Sampler, Scene, TextureSlot, Wrap};
 
-/// The arrays that tell what surfaces look like.
+/// The arrays of glTF that describe surfaces.
 pub(super) struct Surfaces {
     pub images: Vec<Value>,
     pub samplers: Vec<Value>,
@@ -23,7 +23,7 @@ pub(super) struct Surfaces {
     pub materials: Vec<Value>,
 }
 
-/// What the surfaces of a scene look like; those of a bake show the light in their vertex colours.
+/// The surfaces of a scene. Those of a bake are unlit, and their vertex colours show the light.
 pub(super) fn surfaces(scene: &Scene, is_baked: bool, binary: &mut Binary, used: &mut Extensions) -> Surfaces {
     let unique = unique_images(scene);
     Surfaces {
@@ -34,20 +34,20 @@ pub(super) fn surfaces(scene: &Scene, is_baked: bool, binary: &mut Binary, used:
     }
 }
 
-/// The texture slots that a material fills.
+/// The texture slots that a material uses.
 pub(super) fn texture_slots(material: &Material) -> impl Iterator<Item = &TextureSlot> {
     let normal = material.normal_texture.as_ref().map(|(slot, _)| slot);
     let others = [&material.base_colour_texture, &material.metallic_roughness_texture, &material.emissive_texture];
     others.into_iter().flatten().chain(normal)
 }
 
-/// Images, each once, with their number by address.
+/// Images, each once, with their index by address.
 struct UniqueImages<'a> {
     images: Vec<&'a Image>,
     number: HashMap<*const Image, usize>,
 }
 
-/// Textures may share an image; it is written once.
+/// The different images of all textures.
 fn unique_images(scene: &Scene) -> UniqueImages<'_> {
     let mut unique = UniqueImages { images: Vec::new(), number: HashMap::new() };
     for texture in &scene.textures {
@@ -59,7 +59,7 @@ fn unique_images(scene: &Scene) -> UniqueImages<'_> {
     unique
 }
 
-/// The encoded images, unchanged where every viewer can read them, else as PNG.
+/// The images, as they are encoded if every viewer can read that (PNG and JPEG), else as PNG.
 fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
     let embedded = |image: &&Image| {
         let is_plain = !image.encoded.is_empty() && matches!(image.mime_type.as_str(), "image/png" | "image/jpeg");
@@ -76,16 +76,16 @@ fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
     unique.images.iter().map(embedded).collect()
 }
 
-/// A PNG file of such pixels.
+/// The bytes of a PNG file.
 pub(super) fn png(pixels: &[u8], width: u32, height: u32, kind: ExtendedColorType) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
     PngEncoder::new(&mut file)
         .write_image(pixels, width, height, kind)
-        .expect("an image has as many pixels as it says, and memory takes them");
+        .expect("an image has as many pixels as its size, and writing to memory succeeds");
     file.into_inner()
 }
 
-/// One texture object each, which names its image and its sampler.
+/// One glTF texture for each texture, with its image and its sampler.
 fn textures(scene: &Scene, unique: &UniqueImages<'_>) -> Vec<Value> {
     let samplers = unique_samplers(scene);
     let object = |texture: &crate::scene::Texture| {
@@ -132,7 +132,8 @@ fn materials(scene: &Scene, is_baked: bool, used: &mut Extensions) -> Vec<Value>
     scene.materials.iter().map(object).collect()
 }
 
-/// The material as an unlit surface that leaves all colour to its vertices and its texture, with what it was in `extras`.
+/// The material as an unlit surface that leaves all colour to its vertices and its texture, with what it was in
+/// `extras`.
 fn showing_light(mut object: Value, material: &Material, used: &mut Extensions) -> Value {
     const UNLIT: &str = "KHR_materials_unlit";
     let mut paint = json!({
@@ -208,7 +209,7 @@ fn metallic_roughness(material: &Material, used: &mut Extensions) -> Value {
     Value::Object(object)
 }
 
-/// Extensions by which the material differs from glTF's default.
+/// Extensions for properties that differ from the defaults of glTF.
 fn extensions(material: &Material) -> Vec<(&'static str, Value)> {
     let plain = Material::default();
     let mut extensions = Vec::new();
@@ -228,7 +229,7 @@ fn extensions(material: &Material) -> Vec<(&'static str, Value)> {
     extensions
 }
 
-/// Emissive strength of a radiance in nit per channel.
+/// Emissive strength of an emission, nit per channel.
 fn strength(emission: Vec3) -> f32 {
     emission.max_element().max(1.0)
 }
@@ -241,7 +242,7 @@ fn texture_info(slot: &TextureSlot, used: &mut Extensions) -> Value {
     if slot.transform != Affine2::IDENTITY {
         const NAME: &str = "KHR_texture_transform";
         used.insert(NAME);
-        // glTF turns the coordinates clockwise, as seen with V down.
+        // The rotation of glTF is clockwise, as seen with V down.
         let (scale, angle, offset) = slot.transform.to_scale_angle_translation();
         info["extensions"] = json!({
             NAME: { "offset": offset.to_array(), "rotation": -angle, "scale": scale.to_array() }

@@ -70,7 +70,7 @@ fn mesh(
     mesh
 }
 
-/// The scene vertices that the triangles use, in the order of first use, and the triangles in those numbers.
+/// The vertices that triangles use, in the order of first use, and the triangles as indices of these.
 fn renumber(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
     let mut vertices = Vec::new();
     let mut number = HashMap::new();
@@ -87,7 +87,7 @@ fn renumber(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
     (vertices, indices)
 }
 
-/// Accessors of the attributes that say something; what is left out reads back as its default.
+/// Accessors of the attributes. An attribute whose values are all default values is left out.
 fn attributes(
     scene: &Scene,
     light: LightStorage<'_>,
@@ -116,8 +116,8 @@ fn attributes(
     }
     let is_painted = used().any(|vertex| vertex.colour != Vec4::ONE);
     if let LightStorage::Vertices { appearance, .. } = light {
-        // COLOR_0 shows the light, and the paint lies beside it. All attributes of ours are triples, because Blender's
-        // importer mixes up such as are not alike.
+        // COLOR_0 shows the light, and _COLOR holds the paint. All custom attributes have three components, because the
+        // importer of Blender mixes up attributes with different numbers.
         put(
             "COLOR_0".into(),
             binary.push_colours(vertices.iter().map(|&v| appearance.colour(scene, material, v).to_array())),
@@ -140,7 +140,8 @@ fn attributes(
     attributes
 }
 
-/// Texture coordinate sets from 0 on that hold something or that the material reads; glTF allows no gaps.
+/// Number of texture coordinate sets, from 0 on, up to the last that is not 0 or that the material reads; glTF allows
+/// no gaps.
 fn num_uv_sets<'a>(material: &Material, vertices: impl Iterator<Item = &'a Vertex> + Clone) -> usize {
     let read = texture_slots(material).map(|slot| slot.uv_set + 1).max().unwrap_or(0);
     let holds = |set: usize| vertices.clone().any(|vertex| vertex.uv[set] != glam::Vec2::ZERO);

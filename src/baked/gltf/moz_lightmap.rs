@@ -1,9 +1,9 @@
-//! Light in a texture, as programs that know lightmaps take it: `MOZ_lightmap` on the materials.
+//! Light in a texture for other programs: `MOZ_lightmap` on the materials.
 //!
-//! Shown is base colour x texel x intensity / pi, which is what three.js, Hubs and others make of it: a texel is irradiance.
-//! The picture has eight bits a channel and is linear, as the extension wants it; its white is the brightest irradiance, but at
-//! most what shows white paint twice as bright as white. Everything that shines is told at one exposure, so that emission and light
-//! go together. Lights are left out, since their light is in the texture.
+//! Equation: shown = base colour x texel x intensity / pi, as in three.js and Hubs: a texel is irradiance. The image
+//! has eight bits per channel and is linear, as the extension requires. Its white is the brightest irradiance, but at
+//! most that which shows white paint at twice the display white. Light and emission are scaled by one exposure. Lights
+//! are left out, because the texture contains their light.
 //!
 //! Source: GLTFLightMapLoaderExtension of three.js r188; Hubs, pull request 2375.
 
@@ -22,18 +22,19 @@ use crate::scene::{Material, Scene};
 
 const EXTENSION: &str = "MOZ_lightmap";
 
-/// The texture coordinate set of the lightmap: the second, or the first that the material has no use for.
+/// The texture coordinate set of the lightmap: the second, or a later one if the material uses that.
 pub(super) fn uv_set(material: &Material) -> usize {
     texture_slots(material).map(|slot| slot.uv_set + 1).max().unwrap_or(0).max(1)
 }
 
-/// Irradiance of the brightest texel of the picture, lux.
+/// Irradiance that white of the image stands for, lux.
 pub(super) fn white(lightmap: &Lightmap, exposure: f32) -> f32 {
     let brightest = lightmap.texels.irradiance.iter().map(|light| light.max_element()).fold(0.0, f32::max);
     if brightest > 0.0 { brightest.min(TAU / exposure) } else { PI / exposure }
 }
 
-/// The scene as it is shown at an exposure: what shines is scaled, lights are gone, backs are triangles of their own.
+/// The scene at an exposure: emission is scaled, there are no lights, and no material is double-sided, because backs
+/// are triangles of their own.
 pub(super) fn shown(lightmap: &Lightmap, exposure: f32) -> Scene {
     let mut scene = lightmap.scene.clone();
     scene.lights.clear();
@@ -49,7 +50,7 @@ pub(super) fn shown(lightmap: &Lightmap, exposure: f32) -> Scene {
     scene
 }
 
-/// Adds the picture, and to every lit material the way to it.
+/// Adds the image, and a reference to it to every lit material.
 pub(super) fn add(
     lightmap: &Lightmap,
     exposure: f32,
@@ -73,14 +74,14 @@ pub(super) fn add(
     }
 }
 
-/// Smaller mip levels would mix what lies side by side in the picture only.
+/// A sampler without mip maps, which would mix charts that are neighbours in the image only.
 fn sampler() -> Value {
     const LINEAR: u32 = 9729;
     const CLAMP: u32 = 33071;
     json!({ "wrapS": CLAMP, "wrapT": CLAMP, "magFilter": LINEAR, "minFilter": LINEAR })
 }
 
-/// Rounded up or down by a fixed pattern, so that dark slopes are no steps.
+/// The image, dithered by a fixed pattern, so that dark gradients show no bands.
 fn picture(lightmap: &Lightmap, white: f32) -> Vec<u8> {
     let texels = &lightmap.texels;
     let bytes: Vec<u8> = texels
@@ -95,7 +96,7 @@ fn picture(lightmap: &Lightmap, white: f32) -> Vec<u8> {
     png(&bytes, texels.width, texels.height, ExtendedColorType::Rgb8)
 }
 
-/// Evenly spread between 0 and 1 in every neighbourhood (Roberts 2018, as [`r2`]).
+/// Threshold of dithering, evenly distributed in 0..1 in every neighbourhood (Roberts 2018, as [`r2`]).
 fn threshold(x: u32, y: u32) -> f32 {
     (r2(x, 0).x + r2(y, 0).y).fract()
 }

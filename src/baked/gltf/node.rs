@@ -1,4 +1,5 @@
-//! Nodes: what hangs on the branches of the tree, and the lights and cameras beside it.
+//! Nodes: the branches of the tree with their meshes, lights and cameras, and the lights and cameras that no branch
+//! has.
 
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
@@ -14,12 +15,12 @@ pub(super) const LIGHTS_EXTENSION: &str = "KHR_lights_punctual";
 /// Name of the extension that holds photometric files.
 pub(super) const PROFILES_EXTENSION: &str = "EXT_lights_ies";
 
-/// Where a perspective view begins, metres; glTF wants one, nobody here reads it.
+/// Near plane of a perspective camera, metres. glTF requires one; this program does not read it.
 const NEAR: f32 = 0.01;
-/// Where an orthographic view ends, metres; glTF wants one, nobody here reads it.
+/// Far plane of an orthographic camera, metres. glTF requires one; this program does not read it.
 const FAR: f32 = 1000.0;
 
-/// One node for every branch, and for every light and camera that no branch carries; and which of them have none above.
+/// One node for every branch and for every light and camera that no branch has, and the indices of the roots.
 pub(super) fn nodes(scene: &Scene, branches: &[Branch]) -> (Vec<Value>, Vec<usize>) {
     let mut nodes: Vec<Value> = branches.iter().map(Branch::node).collect();
     let drawn = branches.iter().enumerate().filter(|(_, branch)| !branch.triangles.is_empty());
@@ -58,7 +59,7 @@ pub(super) fn nodes(scene: &Scene, branches: &[Branch]) -> (Vec<Value>, Vec<usiz
     (nodes, roots)
 }
 
-/// Extensions of a node that carries a light. Lights are told in two lists, by whether they have a photometric table.
+/// Extensions of a node with a light. Lights with a photometric table and those without are in separate lists.
 fn carrying(scene: &Scene, light: usize) -> Value {
     let Light { profile, intensity, .. } = &scene.lights[light];
     let number = scene.lights[..light].iter().filter(|other| other.profile.is_some() == profile.is_some()).count();
@@ -79,7 +80,7 @@ fn placed(name: &str, translation: Vec3, rotation: Quat) -> Value {
     node
 }
 
-/// A light of glTF shines along its node's -Z.
+/// Translation and rotation of a light, which shines along the -Z axis of its node.
 fn place_of_light(light: &Light) -> (Vec3, Quat) {
     let turned = |direction| Quat::from_rotation_arc(Vec3::NEG_Z, direction).normalize();
     match light.kind {
@@ -99,7 +100,7 @@ pub(super) fn lights(scene: &Scene) -> Vec<Value> {
 
 /// The photometric files of EXT_lights_ies.
 pub(super) fn profiles(scene: &Scene, binary: &mut Binary) -> Vec<Value> {
-    let told = |light: &Light| {
+    let profile = |light: &Light| {
         let view = binary.push_file(light.profile.as_ref()?.photometry.file());
         let mut object = named(&light.name);
         object["bufferView"] = json!(view);
@@ -107,10 +108,10 @@ pub(super) fn profiles(scene: &Scene, binary: &mut Binary) -> Vec<Value> {
         object["extras"] = json!({ "light_group": group_name(scene, light.group) });
         Some(object)
     };
-    scene.lights.iter().filter_map(told).collect()
+    scene.lights.iter().filter_map(profile).collect()
 }
 
-/// The colour is at most one a channel; a light that is off has any.
+/// The colour of a light, scaled so that its largest channel is 1; white if the light is off.
 fn colour_of(intensity: Vec3) -> Vec3 {
     let largest = intensity.max_element();
     if largest > 0.0 { intensity / largest } else { Vec3::ONE }
@@ -141,7 +142,7 @@ pub(super) fn group_name(scene: &Scene, group: GroupId) -> &str {
     &scene.light_groups[group.index()]
 }
 
-/// The cameras as glTF tells them; their places are told by [`nodes`].
+/// The cameras as glTF objects; [`nodes`] writes their transforms.
 pub(super) fn cameras(scene: &Scene) -> Vec<Value> {
     scene.cameras.iter().map(camera).collect()
 }

@@ -7,13 +7,15 @@ use crate::scene::{Scene, VertexAttribute};
 
 /// Takes the stored light out of a loaded scene, with what the file records of its elements.
 ///
-/// A group of which only a part is stored is dark in the rest; groups without a name in the file are named by their number.
+/// A group of which only a part is stored is dark in the rest; groups without a name in the file are named by their
+/// number.
 ///
 /// # Errors
 /// Returns the scene itself, unchanged, if it carries no light.
 #[expect(clippy::result_large_err, reason = "the error is the argument handed back, once a file")]
 pub fn from_scene(mut scene: Scene) -> Result<BakedScene, Scene> {
-    // A larger group number than there are attributes is an error of the file, and must not allocate memory for all groups below.
+    // A larger group number than there are attributes is an error of the file, and must not allocate memory for all
+    // groups below.
     let limit = scene.irradiance.len();
     let part_of = |attribute: &VertexAttribute| part(&attribute.name).filter(|&(_, group)| group < limit);
     let Some(last) = scene.irradiance.iter().filter_map(part_of).map(|(_, group)| group).max() else {

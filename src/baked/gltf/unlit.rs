@@ -1,7 +1,7 @@
-//! What viewers that know nothing of stored light show: unlit surfaces in the colour of their light at one exposure.
+//! The appearance in viewers that read no stored light: unlit surfaces in the colour of their light at one exposure.
 //!
-//! COLOR_0 = tone(radiance x 2^EV), where the base colour texture is left to multiply on. Tone mapping is that of our own
-//! pictures, so that both look alike.
+//! Equation: COLOR_0 = tone(radiance x 2^EV), without the base colour texture, which the viewer multiplies. The tone
+//! mapping is that of this program, so that pictures look alike.
 
 use std::f32::consts::PI;
 
@@ -11,17 +11,17 @@ use crate::baked::VertexLight;
 use crate::base::colour::neutral;
 use crate::scene::{Material, Scene};
 
-/// Light at one exposure.
+/// Light at the vertices, and the exposure at which it is shown.
 #[derive(Clone, Copy)]
 pub(super) struct UnlitAppearance<'a> {
     /// The light.
     pub light: &'a VertexLight,
-    /// Displayed = radiance x this.
+    /// Displayed = radiance x exposure.
     pub exposure: f32,
 }
 
 impl UnlitAppearance<'_> {
-    /// COLOR_0 of a vertex: display-referred linear colour and the alpha of its paint.
+    /// COLOR_0 of a vertex: linear display colour, and alpha of the scene's vertex colour.
     pub fn colour(&self, scene: &Scene, material: &Material, vertex: u32) -> Vec4 {
         let v = vertex as usize;
         let paint = scene.vertices[v].colour;
@@ -38,7 +38,8 @@ impl UnlitAppearance<'_> {
     }
 }
 
-/// An emissive texture takes the place of the base colour's: beside it, reflected light does not count.
+/// The emissive texture takes the place of the base colour texture, and reflected light is neglected beside the
+/// emission.
 pub(super) fn shows_emission(material: &Material) -> bool {
     material.is_emissive() && material.emissive_texture.is_some() && !material.unlit
 }

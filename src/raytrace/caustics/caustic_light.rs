@@ -1,11 +1,11 @@
 //! Caustics and their interreflection: the irradiance that the first pass lacks, solved for all elements.
 //!
-//! Radiosity is solved for this light alone, with form factors that are extended by mirrors: rays from each element pass
-//! through mirrors and panes to the diffuse surfaces that these show.
+//! Radiosity is solved for this light alone, with form factors that are extended by mirrors: rays from each element
+//! pass through mirrors and panes to the diffuse surfaces that these show.
 //!
-//! Equation: X = T rho X + M rho E - G E + X_lamps, where X is the missing irradiance, E the stored one, T the share of light
-//! that arrives along all rays, M along those that met a mirror or a pane, and X_lamps what arrives from lamps by way of
-//! mirrors and panes. G takes back what panes reflect in the first pass, which treats them as paint.
+//! Equation: X = T rho X + M rho E - G E + X_lamps, where X is the missing irradiance, E the stored one, T the share of
+//! light that arrives along all rays, M along those that met a mirror or a pane, and X_lamps what arrives from lamps by
+//! way of mirrors and panes. G takes back what panes reflect in the first pass, which treats them as paint.
 //!
 //! Sources: Wallace, Cohen, Greenberg 1987, "A Two-pass Solution to the Rendering Equation"; Sillion and Puech 1989, "A
 //! General Two-Pass Method Integrating Specular and Diffuse Reflection" (extended form factors).

@@ -1,9 +1,10 @@
-//! Light of lamps by way of mirrors, by photons shot from the lamps: rays from elements seldom find a small lamp in a mirror.
+//! Light of lamps by way of mirrors, by photons shot from the lamps: rays from elements seldom find a small lamp in a
+//! mirror.
 //!
-//! A photon starts at a random point of a lamp in a cosine-distributed direction and carries the flux Phi = pi L A / p of the
-//! lamp that was chosen with probability p. Where it lands on a diffuse surface after a reflection, the triangle adds its
-//! flux; irradiance is flux / area. Only emissive surfaces shoot, because path tracing leaves out punctual lights by way of
-//! mirrors as well.
+//! A photon starts at a random point of a lamp in a cosine-distributed direction and carries the flux Phi = pi L A / p
+//! of the lamp that was chosen with probability p. Where it lands on a diffuse surface after a reflection, the triangle
+//! adds its flux; irradiance is flux / area. Only emissive surfaces shoot, because path tracing leaves out punctual
+//! lights by way of mirrors as well.
 //!
 //! Source: Arvo 1986, "Backward Ray Tracing" (light is stored on the surfaces that it lands on).
 

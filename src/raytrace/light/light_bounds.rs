@@ -1,7 +1,8 @@
 //! Bounds of one lamp or of several: an estimate of the light that they may send to a point.
 //!
-//! Equation: importance = power cos_emitter cos_receiver / distance^2, where either cosine is the largest that any lamp within
-//! the bounds may have: the angle to the axis less the spread of the normals less the angle that the box subtends.
+//! Equation: importance = power cos_emitter cos_receiver / distance^2, where either cosine is the largest that any lamp
+//! within the bounds may have: the angle to the axis less the spread of the normals less the angle that the box
+//! subtends.
 //!
 //! Source: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", section 12.6.3.
 

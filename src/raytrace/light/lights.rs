@@ -84,11 +84,11 @@ impl<'a> Lights<'a> {
         Self { scene, tree: LightTree::new(&bounds), power_until, emitters, emitter_of }
     }
 
-    /// Samples a point on an emissive triangle, chosen by the light that it may send to `place`. Returns `None` if the point
-    /// does not face the place.
+    /// Samples a point on an emissive triangle, chosen by the light that it may send to `place`. Returns `None` if the
+    /// point does not face the place.
     ///
-    /// The density per steradian is p = P d^2 / (A cos), with the probability P of the triangle, its area A, the distance d and
-    /// the cosine at the triangle.
+    /// The density per steradian is p = P d^2 / (A cos), with the probability P of the triangle, its area A, the
+    /// distance d and the cosine at the triangle.
     pub(crate) fn sample_emitter(&self, place: Vec3, normal: Vec3, sampler: &mut Sampler) -> Option<EmitterSample> {
         let (number, square) = (sampler.number(), sampler.square());
         let (chosen, probability) = self.tree.choose(place, normal, number)?;
@@ -131,8 +131,8 @@ impl<'a> Lights<'a> {
         })
     }
 
-    /// Density per steradian with which [`Self::sample_emitter`] chooses a direction from `place` that meets `triangle` at
-    /// `distance`.
+    /// Density per steradian with which [`Self::sample_emitter`] chooses a direction from `place` that meets `triangle`
+    /// at `distance`.
     pub(crate) fn density(
         &self,
         place: Vec3,
@@ -152,8 +152,8 @@ impl<'a> Lights<'a> {
         self.tree.probability(number, place, normal) * distance * distance / (emitter.area * cosine)
     }
 
-    /// Chooses a punctual light by its unoccluded irradiance, and returns its number, its light at `place` and the probability
-    /// of the choice.
+    /// Chooses a punctual light by its unoccluded irradiance, and returns its number, its light at `place` and the
+    /// probability of the choice.
     pub(crate) fn choose_punctual(
         &self,
         place: Vec3,
@@ -203,7 +203,8 @@ impl<'a> Lights<'a> {
 }
 
 impl Emitter {
-    /// Cosine between a unit vector away from the triangle and the normal of the emitting side; 0 on a side that does not emit.
+    /// Cosine between a unit vector away from the triangle and the normal of the emitting side; 0 on a side that does
+    /// not emit.
     fn cosine(&self, away: Vec3) -> f32 {
         let cosine = self.normal.dot(away);
         if self.is_two_sided { cosine.abs() } else { cosine.max(0.0) }

@@ -1,8 +1,9 @@
 //! Connections of a surface with a surface that a ray from a point or spot light meets.
 //!
-//! A light beside a ceiling makes a small, very bright spot there. Paths from elsewhere meet the spot seldom: their estimates
-//! have a long tail, and the error that they state is too small as long as no path has met it. So every diffuse surface is
-//! also connected with the surface that a ray from a light meets, and the power heuristic weights both strategies.
+//! A light beside a ceiling makes a small, very bright spot there. Paths from elsewhere meet the spot seldom: their
+//! estimates have a long tail, and the error that they state is too small as long as no path has met it. So every
+//! diffuse surface is also connected with the surface that a ray from a light meets, and the power heuristic weights
+//! both strategies.
 //!
 //! Source: Veach 1997, chapter 10 (bidirectional path tracing; here the paths with two vertices from the light).
 
@@ -17,8 +18,9 @@ use crate::scene::edge_cross;
 use crate::trace::Hit;
 
 impl RayCaster<'_> {
-    /// Irradiance at `origin`, above a surface with this shading and this geometric normal, from a surface that a ray of a
-    /// punctual light meets. `path_density` is the density of the other strategy, which accounts for the rest of the light.
+    /// Irradiance at `origin`, above a surface with this shading and this geometric normal, from a surface that a ray
+    /// of a punctual light meets. `path_density` is the density of the other strategy, which accounts for the rest of
+    /// the light.
     pub(crate) fn connected_irradiance(
         &self,
         origin: Vec3,

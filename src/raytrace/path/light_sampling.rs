@@ -1,7 +1,7 @@
 //! Light straight from the lights to a surface, by rays aimed at them, through panes as well (next-event estimation).
 //!
-//! Equation: L = f L_e V cos / p, where the direction is sampled with density p, f is the reflectance distribution and V what
-//! passes on the way; weighted by the power heuristic where a path may find the same light.
+//! Equation: L = f L_e V cos / p, where the direction is sampled with density p, f is the reflectance distribution and
+//! V what passes on the way; weighted by the power heuristic where a path may find the same light.
 
 use std::cell::Cell;
 use std::f32::consts::FRAC_1_PI;
@@ -42,8 +42,8 @@ impl RayCaster<'_> {
             + self.reflected_of_emitters(surface, origin, |direction| [0.0, surface.glossy_density(direction)], sampler)
     }
 
-    /// As [`Self::direct`], from one of the punctual lights, and weighted for the other strategies of a path that has met
-    /// `surface` by `ray` at `distance`.
+    /// As [`Self::direct`], from one of the punctual lights, and weighted for the other strategies of a path that has
+    /// met `surface` by `ray` at `distance`.
     pub(crate) fn direct_beside_path(
         &self,
         surface: &Surface,
@@ -95,8 +95,8 @@ impl RayCaster<'_> {
         share * arrival.irradiance
     }
 
-    /// Radiance towards the viewer of the emissive triangles, reflected diffusely and in glossy metal. `path_densities` are
-    /// those with which a path takes a direction by either reflection; it accounts for the rest of the light.
+    /// Radiance towards the viewer of the emissive triangles, reflected diffusely and in glossy metal. `path_densities`
+    /// are those with which a path takes a direction by either reflection; it accounts for the rest of the light.
     fn reflected_of_emitters(
         &self,
         surface: &Surface,
@@ -179,7 +179,8 @@ impl RayCaster<'_> {
         irradiance
     }
 
-    /// Share of light that passes along `direction` up to `max_distance`, in lengths of `direction`, through panes as well.
+    /// Share of light that passes along `direction` up to `max_distance`, in lengths of `direction`, through panes as
+    /// well.
     pub(crate) fn passing(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Passing {
         if !self.has_panes {
             let share = self.tracer.transmittance(origin, direction, max_distance);

@@ -1,12 +1,13 @@
 //! Path tracing: an unbiased estimate of the light along a ray, the reference for the other methods.
 //!
-//! Equation: L_o = L_e + integral of f L_i cos over the directions (the rendering equation), followed recursively along one
-//! random direction a surface.
+//! Equation: L_o = L_e + integral of f L_i cos over the directions (the rendering equation), followed recursively along
+//! one random direction a surface.
 //!
-//! The light of lamps is sampled twice at every diffuse or glossy surface: by a point on a lamp (next-event estimation) and
-//! by the direction in which the path goes on; the power heuristic weights the two. Punctual lights have no area that a
-//! path could meet. They are sampled directly, also through panes, and by connection with a surface that a ray from the light
-//! meets (`connection.rs`). Light of a punctual light by way of a mirror is left out: no strategy finds it.
+//! The light of lamps is sampled twice at every diffuse or glossy surface: by a point on a lamp (next-event estimation)
+//! and by the direction in which the path goes on; the power heuristic weights the two. Punctual lights have no area
+//! that a path could meet. They are sampled directly, also through panes, and by connection with a surface that a ray
+//! from the light meets (`connection.rs`). Light of a punctual light by way of a mirror is left out: no strategy finds
+//! it.
 //!
 //! Sources: Kajiya 1986, "The Rendering Equation"; Veach 1997, "Robust Monte Carlo Methods for Light Transport
 //! Simulation", chapter 9.
@@ -117,7 +118,8 @@ impl<'a> PathTracer<'a> {
         !self.rays.beams.is_empty() && bounce < self.max_bounces
     }
 
-    /// Radiance towards the viewer that a surface reflects diffusely of light that punctual lights cast on another surface.
+    /// Radiance towards the viewer that a surface reflects diffusely of light that punctual lights cast on another
+    /// surface.
     fn connected(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
         let origin = self.rays.above(surface.position, surface.geometric);
         let density = |direction| surface.diffuse_density(direction);
@@ -128,8 +130,8 @@ impl<'a> PathTracer<'a> {
 
 /// Russian roulette: ends a path that carries little at random, and returns false if it ended.
 ///
-/// A path that goes on carries the light of the ended ones as well: throughput / p, where p is the probability to go on, so
-/// that the mean stays the same.
+/// A path that goes on carries the light of the ended ones as well: throughput / p, where p is the probability to go
+/// on, so that the mean stays the same.
 fn survives(throughput: &mut Vec3, sampler: &mut Sampler) -> bool {
     let probability = throughput.max_element().min(0.95);
     let is_alive = sampler.number() < probability;

@@ -25,8 +25,8 @@ pub struct GatherPrecision {
     pub min_rays: u32,
     /// Most rays a point.
     pub max_rays: u32,
-    /// Standard error of a point's irradiance below which no more rays are cast, relative to the irradiance, direct part
-    /// included.
+    /// Standard error of a point's irradiance below which no more rays are cast, relative to the irradiance, direct
+    /// part included.
     pub error: f32,
 }
 
@@ -37,9 +37,9 @@ const NUM_STREAMS: u32 = 16;
 ///
 /// Equation: E = mean over cosine-distributed rays of rho (E_direct + E_indirect) where the ray ends.
 ///
-/// E_indirect is the stored light; E_direct is sampled anew, because the shadows of direct light may be finer than the mesh.
-/// The number of rays doubles until the standard error is small beside the whole irradiance, whose direct part `[point]` is
-/// `direct`. `tracer` must hold the elements of `baked`.
+/// E_indirect is the stored light; E_direct is sampled anew, because the shadows of direct light may be finer than the
+/// mesh. The number of rays doubles until the standard error is small beside the whole irradiance, whose direct part
+/// `[point]` is `direct`. `tracer` must hold the elements of `baked`.
 ///
 /// Source: Lischinski, Tampieri, Greenberg 1993, "Combining hierarchical radiosity and discontinuity meshing".
 #[must_use]
@@ -103,8 +103,8 @@ const TRUSTED_FROM: f32 = 4.0;
 
 /// Indirect radiance from one random direction of the hemisphere, times pi.
 ///
-/// Stored light is as coarse as the elements: at a distance of about an element it is no better than the light stored at the
-/// point itself. A ray that short is followed by another bounce, until one is long enough.
+/// Stored light is as coarse as the elements: at a distance of about an element it is no better than the light stored
+/// at the point itself. A ray that short is followed by another bounce, until one is long enough.
 ///
 /// Source: Christensen 1999, "Faster photon map global illumination".
 fn gathered(rays: &RayCaster<'_>, stored: &StoredLight<'_>, point: &PointOnSurface, sampler: &mut Sampler) -> Vec3 {

@@ -1,7 +1,7 @@
 //! Reference irradiance at given points by path tracing, with standard errors.
 //!
-//! Equation: E = mean over the paths of L / p cos, with directions drawn with density p = cos / pi. The standard error of the
-//! mean of n independent estimates x_i is sqrt(sum (x_i - mean)^2 / (n (n - 1))).
+//! Equation: E = mean over the paths of L / p cos, with directions drawn with density p = cos / pi. The standard error
+//! of the mean of n independent estimates x_i is sqrt(sum (x_i - mean)^2 / (n (n - 1))).
 
 use std::f32::consts::{FRAC_1_PI, PI};
 use std::sync::atomic::{AtomicUsize, Ordering};

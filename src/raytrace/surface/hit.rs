@@ -26,8 +26,8 @@ pub(crate) struct Surface {
     pub position: Vec3,
     /// Geometric unit normal on the ray's side.
     pub geometric: Vec3,
-    /// Unit normal of the cosine of diffuse reflection: the interpolated one if the camera sees the surface, directly or in a
-    /// mirror; the geometric one after a diffuse reflection, as in radiosity.
+    /// Unit normal of the cosine of diffuse reflection: the interpolated one if the camera sees the surface, directly
+    /// or in a mirror; the geometric one after a diffuse reflection, as in radiosity.
     pub normal: Vec3,
     /// Unit vector back along the ray.
     pub to_viewer: Vec3,
@@ -54,15 +54,16 @@ pub(crate) struct Scattered {
 pub(crate) enum Way {
     /// Diffuse reflection; density of the direction per steradian. Lamps are sampled as well.
     Diffuse { density: f32 },
-    /// Reflection in a mirror, in glossy metal or at a pane; density of the direction per steradian, 0 if it is the only one.
+    /// Reflection in a mirror, in glossy metal or at a pane; density of the direction per steradian, 0 if it is the
+    /// only one.
     Reflected { density: f32 },
     /// Straight through a pane.
     Passed,
 }
 
 impl Surface {
-    /// The surface that `ray` has met at `hit`. Without `has_specular` it is that of radiosity: metals absorb and glass is
-    /// opaque.
+    /// The surface that `ray` has met at `hit`. Without `has_specular` it is that of radiosity: metals absorb and glass
+    /// is opaque.
     pub(crate) fn at(scene: &Scene, ray: &Ray, hit: &Hit, has_specular: bool) -> Self {
         let corners = scene.corners(hit.triangle);
         let weights = hit.barycentric;
@@ -104,8 +105,8 @@ impl Surface {
         surface
     }
 
-    /// Interpolated unit normal on the side of the ray, bent by the normal map if `is_mapped`; the geometric normal if the
-    /// other one faces away from the ray.
+    /// Interpolated unit normal on the side of the ray, bent by the normal map if `is_mapped`; the geometric normal if
+    /// the other one faces away from the ray.
     fn shading_normal(&self, scene: &Scene, is_mapped: bool) -> Vec3 {
         let normals = scene.triangles[self.triangle.index()].vertices.map(|v| scene.vertices[v as usize].normal);
         let weights = self.barycentric;

@@ -10,8 +10,8 @@ use crate::scene::Scene;
 
 /// The unit normal by the normal map of a triangle's material at a point, given by the weights of the corners.
 ///
-/// It lies on the side of `smooth`, the interpolated normal of the front. `None` if the material has no normal map or the
-/// texture coordinates of the triangle span no area.
+/// It lies on the side of `smooth`, the interpolated normal of the front. `None` if the material has no normal map or
+/// the texture coordinates of the triangle span no area.
 pub(crate) fn mapped_normal(scene: &Scene, triangle: TriangleId, weights: Vec3, smooth: Vec3) -> Option<Vec3> {
     let (slot, scale) = scene.material_of(triangle).normal_texture.as_ref()?;
     let corners = scene.triangles[triangle.index()].vertices.map(|v| &scene.vertices[v as usize]);

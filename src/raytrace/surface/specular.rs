@@ -4,14 +4,15 @@
 //!
 //! f(i, o) = F(i m) G(i, o) D(m) / (4 cos_i cos_o), m = (i + o) / |i + o|
 //!
-//! where F is the Fresnel reflectance (Schlick's approximation) and G the share of facets that neither the light nor the
-//! viewer is hidden from (Smith). D(m) = a^2 / (pi (cos_m^2 (a^2 - 1) + 1)^2) with the width a = roughness^2. Directions are
-//! sampled by facets that the viewer sees, which leaves the weight F G / G_viewer. Glass is a thin pane: light passes
-//! straight, tinted by the base colour (KHR_materials_transmission), or is reflected by the exact Fresnel equations.
+//! where F is the Fresnel reflectance (Schlick's approximation) and G the share of facets that neither the light nor
+//! the viewer is hidden from (Smith). D(m) = a^2 / (pi (cos_m^2 (a^2 - 1) + 1)^2) with the width a = roughness^2.
+//! Directions are sampled by facets that the viewer sees, which leaves the weight F G / G_viewer. Glass is a thin pane:
+//! light passes straight, tinted by the base colour (KHR_materials_transmission), or is reflected by the exact Fresnel
+//! equations.
 //!
 //! Sources: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces" (GGX); Heitz 2014,
-//! "Understanding the Masking-Shadowing Function", and 2018, "Sampling the GGX Distribution of Visible Normals"; Schlick
-//! 1994, "An Inexpensive BRDF Model for Physically-based Rendering".
+//! "Understanding the Masking-Shadowing Function", and 2018, "Sampling the GGX Distribution of Visible Normals";
+//! Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering".
 
 use std::f32::consts::{FRAC_1_PI, TAU};
 
@@ -94,8 +95,8 @@ impl Specular {
         }
     }
 
-    /// Chooses a direction at random; `geometric` is the geometric normal on the side of the viewer. Returns `None` if it leads
-    /// below the surface.
+    /// Chooses a direction at random; `geometric` is the geometric normal on the side of the viewer. Returns `None` if
+    /// it leads below the surface.
     pub(crate) fn scatter(&self, to_viewer: Vec3, geometric: Vec3, sampler: &mut Sampler) -> Option<SpecularWay> {
         let reflected = |direction, share| SpecularWay { direction, share, is_straight: false };
         match self.lobe {
@@ -141,8 +142,8 @@ impl Specular {
         }
     }
 
-    /// Radiance towards the viewer under unit irradiance on a plane across `to_light`: f cos, the highlight of a light; 0 for a
-    /// mirror or a pane.
+    /// Radiance towards the viewer under unit irradiance on a plane across `to_light`: f cos, the highlight of a light;
+    /// 0 for a mirror or a pane.
     pub(crate) fn highlight(&self, to_viewer: Vec3, to_light: Vec3) -> Vec3 {
         let (cos_out, cos_in) = (self.normal.dot(to_viewer), self.normal.dot(to_light));
         match self.lobe {

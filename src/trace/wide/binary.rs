@@ -1,10 +1,13 @@
-//! The binary tree that becomes a wide one: the better of two.
+//! The binary tree that is collapsed into a wide one: the better of two.
 //!
-//! Clustering neighbours from below is best for most scenes, but fails where many boxes are alike, as those of a bake's
-//! elements are: ties join them to long strips. Splitting from above knows no ties.
+//! The surface area heuristic (SAH) estimates the cost of a tree: a ray that meets a box meets a box within it with a
+//! probability equal to the ratio of their surface areas, so cost = sum over the nodes of area x cost of the node.
+//! Clustering neighbours from below gives the lowest cost for most scenes, but not where many boxes are equal, as those
+//! of the elements of a bake: ties join them to long strips. Splitting from above, at the best of some buckets along
+//! each axis, has no ties.
 //!
-//! Sources: Meister, Bittner 2018, "Parallel Locally-Ordered Clustering" (from below, by the `obvhs` crate); Wald 2007, "On
-//! fast Construction of SAH-based Bounding Volume Hierarchies" (from above).
+//! Sources: Meister, Bittner 2018, "Parallel Locally-Ordered Clustering" (from below, by the `obvhs` crate); Wald 2007,
+//! "On fast Construction of SAH-based Bounding Volume Hierarchies" (from above).
 
 use std::time::Duration;
 
@@ -17,13 +20,13 @@ use obvhs::bvh2::leaf_collapser::collapse;
 use obvhs::bvh2::node::Bvh2Node;
 use obvhs::triangle::Triangle;
 
-/// Triangles that are met at once.
+/// Triangles that are tested at once.
 const LEAF_SIZE: u32 = 4;
 
-/// Cost of a node; a leaf costs as much, however many triangles it has.
+/// Cost of a node, and of a leaf with any number of triangles.
 const NODE_COST: f32 = 4.0;
 
-/// Places where a node may be split, along each axis.
+/// Buckets along each axis of a split.
 const NUM_BUCKETS: usize = 32;
 
 /// A binary tree over at least one triangle, with up to four in a leaf.
@@ -32,7 +35,7 @@ pub(super) fn binary_tree(triangles: &[[Vec3A; 3]]) -> Bvh2 {
     if cost(&above) < cost(&below) { above } else { below }
 }
 
-/// Expected number of nodes and leaves that a ray meets, but for a factor (the surface area heuristic).
+/// Expected number of nodes and leaves that a ray meets, up to a factor (the surface area heuristic).
 fn cost(tree: &Bvh2) -> f32 {
     tree.nodes.iter().map(|node| node.aabb().half_area()).sum()
 }
@@ -58,7 +61,7 @@ fn from_above(triangles: &[[Vec3A; 3]]) -> Bvh2 {
     tree
 }
 
-/// Makes node `at` the root over the boxes of these numbers, whose place in the whole list begins at `first`.
+/// Makes node `at` the root over the boxes with these numbers, which begin at `first` in the whole list.
 fn grow(tree: &mut Bvh2, boxes: &[Aabb], numbers: &mut [u32], at: usize, first: usize) {
     let bounds = numbers.iter().fold(Aabb::empty(), |all, &n| all.union(&boxes[n as usize]));
     if numbers.len() == 1 {
@@ -74,7 +77,7 @@ fn grow(tree: &mut Bvh2, boxes: &[Aabb], numbers: &mut [u32], at: usize, first: 
     grow(tree, boxes, right, children + 1, first + num_left);
 }
 
-/// Sorts the numbers so that the first of two cheap halves comes first, and says how many it holds.
+/// Partitions the numbers at the split with the lowest cost, and returns the size of the first part.
 fn split(boxes: &[Aabb], numbers: &mut [u32]) -> usize {
     let middle = |n: u32| boxes[n as usize].center();
     let middles = numbers.iter().fold(Aabb::empty(), |all, &n| all.union(&Aabb::from_point(middle(n))));
@@ -90,14 +93,14 @@ fn split(boxes: &[Aabb], numbers: &mut [u32]) -> usize {
             let (bounds, count) = &mut buckets[bucket(n, axis)];
             (*bounds, *count) = (bounds.union(&boxes[n as usize]), *count + 1);
         }
-        // Cost of all buckets up to one, from either side.
+        // Running cost of the buckets, from either side.
         let add = |sum: &mut (Aabb, u32), (bounds, count): &(Aabb, u32)| {
             *sum = (sum.0.union(bounds), sum.1 + count);
             Some(if sum.1 > 0 { sum.0.half_area() * sum.1 as f32 } else { 0.0 })
         };
         let left: Vec<f32> = buckets.iter().scan((Aabb::empty(), 0), add).collect();
         let right: Vec<f32> = buckets.iter().rev().scan((Aabb::empty(), 0), add).collect();
-        // The outermost buckets are never empty, so neither is a half.
+        // The outermost buckets are never empty, so neither part is.
         for at in 1..NUM_BUCKETS {
             let cost = left[at - 1] + right[NUM_BUCKETS - 1 - at];
             if best.is_none_or(|(least, ..)| cost < least) {

@@ -1,8 +1,12 @@
-//! What a ray meets in one step: four boxes or four triangles, one a lane.
+//! Intersection of a ray with four boxes or four triangles at once, one in each lane.
+//!
+//! Boxes by the slab test: the ray is within the box between the largest of the three entries and the smallest of the
+//! three exits, t = (bound - origin) / direction along each axis. Triangles by Möller, Trumbore 1997: solve o + t d = a
+//! + u e1 + v e2 by Cramer's rule.
 
 use glam::{Vec3, Vec3A, Vec4};
 
-/// Every axis has a way through a box, however flat the ray.
+/// Largest inverse of a direction, so that rays parallel to an axis have no infinities.
 const STEEPEST: f32 = 1e30;
 
 /// Four children.
@@ -12,23 +16,23 @@ pub(super) struct Node {
     pub children: [u32; 4],
 }
 
-/// Up to four triangles, lane by lane; lanes without one have edges of no length.
+/// Up to four triangles, lane by lane. Lanes without a triangle have edges of length 0.
 pub(in crate::trace) struct Leaf {
     corner: [Vec4; 3],
     edge_1: [Vec4; 3],
     edge_2: [Vec4; 3],
-    /// Numbers of the triangles in the list that the tree was built from.
+    /// Numbers of the triangles in the list that the tree is built from.
     pub triangles: [u32; 4],
 }
 
-/// A ray that gets shorter while it is traced.
+/// A ray whose reach shrinks while it is traced.
 pub(in crate::trace) struct Probe {
     origin: [Vec4; 3],
     direction: [Vec4; 3],
     inverse: [Vec4; 3],
-    /// Which bound is met first, by axis.
+    /// The bound that is met first, by axis.
     near: [usize; 3],
-    /// Only what is nearer counts.
+    /// Surfaces beyond this distance do not count.
     pub reach: f32,
 }
 
@@ -56,7 +60,7 @@ impl Probe {
 }
 
 impl Node {
-    /// A node round up to four boxes; the rest is never met.
+    /// A node of up to four boxes. The other lanes are never met.
     pub(super) fn around(lows: impl Iterator<Item = Vec3A>, highs: impl Iterator<Item = Vec3A>) -> Self {
         let lanes = |corners: &mut dyn Iterator<Item = Vec3A>, nowhere: f32| {
             let mut axes = [Vec4::splat(nowhere); 3];
@@ -71,14 +75,14 @@ impl Node {
         Self { bounds: std::array::from_fn(|axis| [low[axis], high[axis]]), children: [0; 4] }
     }
 
-    /// Distances to the four boxes and which of them are met.
+    /// Distances to the four boxes, and the lanes of those that are met.
     #[inline]
     pub(super) fn meet(&self, probe: &Probe) -> ([f32; 4], u32) {
         let along = |axis: usize, bound: usize| (self.bounds[axis][bound] - probe.origin[axis]) * probe.inverse[axis];
         let [x, y, z] = probe.near;
         let enter = along(0, x).max(along(1, y)).max(along(2, z).max(Vec4::ZERO));
         let leave = along(0, 1 - x).min(along(1, 1 - y)).min(along(2, 1 - z).min(Vec4::splat(probe.reach)));
-        // A hair of slack for rounding (Ize 2013, "Robust BVH Ray Traversal").
+        // Slack for rounding (Ize 2013, "Robust BVH Ray Traversal").
         (enter.to_array(), enter.cmple(leave * (1.0 + 4.0 * f32::EPSILON)).bitmask())
     }
 }
@@ -103,7 +107,8 @@ impl Leaf {
         leaf
     }
 
-    /// Distances along the ray, weights of the second and third corner, and which triangles are met.
+    /// Distances along the ray, barycentric coordinates of the second and third corner, and the lanes of triangles that
+    /// are met.
     #[inline]
     pub(in crate::trace) fn meet(&self, probe: &Probe) -> Meeting {
         let p = cross(probe.direction, self.edge_2);

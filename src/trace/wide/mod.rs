@@ -1,6 +1,9 @@
-//! A four-wide bounding volume hierarchy: four boxes, or four triangles, are met at once.
+//! A four-wide bounding volume hierarchy (BVH): a tree of boxes, each with up to four children, over all triangles.
 //!
-//! Four lanes are what every x86-64 and ARM64 processor has, so that no other build is needed for fast rays.
+//! A ray visits only the children whose boxes it meets, the nearest first, and skips boxes beyond the nearest hit. Four
+//! boxes or four triangles are tested at once, one in each lane of a SIMD register; every x86-64 and ARM64 processor
+//! has four lanes, so no special build is needed. `binary` builds a binary tree, which is collapsed into the wide one
+//! here; `lanes` holds the intersection tests, `stack` what a ray still has to visit.
 //!
 //! Sources: Wald, Benthin, Boulos 2008, "Getting Rid of Packets" (wide trees for single rays); Möller, Trumbore 1997
 //! (triangles).
@@ -17,7 +20,7 @@ use lanes::Node;
 pub(super) use lanes::{Leaf, Probe};
 use stack::Stack;
 
-/// Marks a child that is a leaf; the other bits are its number.
+/// Bit of a child that is a leaf; the other bits are its index.
 const LEAF: u32 = 1 << 31;
 
 /// The tree.
@@ -37,7 +40,8 @@ impl WideTree {
         tree
     }
 
-    /// Adds the node that stands for `at` and its nearest descendants, the largest opened first; hands back its number.
+    /// Adds the wide node of binary node `at` and returns its index. Its children are descendants of `at`: the largest
+    /// is replaced by its two children until there are four.
     fn fold(&mut self, binary: &Bvh2, triangles: &[[Vec3A; 3]], at: u32) -> u32 {
         let node_of = |at: u32| &binary.nodes[at as usize];
         let mut members = vec![at];
@@ -67,8 +71,8 @@ impl WideTree {
         number as u32
     }
 
-    /// Visits the leaves whose boxes the ray meets, the nearer ones first, as far as its reach, which the visitor may
-    /// shorten; ends when the visitor says false.
+    /// Visits the leaves whose boxes the ray meets within its reach, near ones first. The visitor may shorten the
+    /// reach, and ends the walk by returning false.
     #[inline]
     pub(super) fn visit(&self, probe: &mut Probe, mut visitor: impl FnMut(&mut Probe, &Leaf) -> bool) {
         let mut stack = Stack::new();
@@ -137,7 +141,7 @@ mod tests {
     }
 
     #[test]
-    fn the_tree_finds_what_a_look_at_every_triangle_finds() {
+    fn the_tree_finds_the_nearest_of_all_triangles() {
         let triangles = random_triangles(700);
         let tree = WideTree::new(&triangles);
         let single: Vec<WideTree> = triangles.iter().map(|triangle| WideTree::new(&[*triangle])).collect();
@@ -156,7 +160,7 @@ mod tests {
 
     #[test]
     fn a_ray_meets_few_leaves_of_a_regular_grid() {
-        // Elements of a wall: boxes that are all alike.
+        // Elements of a wall, whose boxes are equal.
         const SIDE: u32 = 64;
         let corner = |x: u32, y: u32| Vec3A::new(x as f32, y as f32, 0.0);
         let halves = |i: u32| {
@@ -177,7 +181,7 @@ mod tests {
     }
 
     #[test]
-    fn many_triangles_in_one_place_are_all_visited() {
+    fn many_equal_triangles_are_all_visited() {
         let triangles = vec![[Vec3A::ZERO, Vec3A::X, Vec3A::Y]; 3000];
         let tree = WideTree::new(&triangles);
         let mut num_met = 0;
@@ -189,7 +193,7 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_tree_is_met_by_nothing() {
+    fn an_empty_tree_is_never_hit() {
         assert_eq!(nearest(&WideTree::new(&[]), Vec3::ZERO, Vec3::X), f32::INFINITY);
     }
 }

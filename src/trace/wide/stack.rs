@@ -1,9 +1,9 @@
-//! What a ray has still to visit, in memory of its own as long as that is little.
+//! The nodes that a ray still has to visit; a few need no memory from the heap.
 
-/// Entries of the stack that need no memory from the heap.
+/// Entries without memory from the heap.
 const SHALLOW: usize = 48;
 
-/// What is still to be visited, with the distance to its box.
+/// Nodes to visit, with the distances to their boxes.
 pub(super) struct Stack {
     shallow: [(f32, u32); SHALLOW],
     length: usize,
@@ -27,7 +27,7 @@ impl Stack {
         }
     }
 
-    /// The last entry whose box is within reach.
+    /// Removes the last entry whose box is within reach and returns its node. `None` if there is none.
     #[inline]
     pub(super) fn pop(&mut self, reach: f32) -> Option<u32> {
         while let Some((distance, child)) = self.deep.pop() {

@@ -1,4 +1,4 @@
-//! Rays through a scene: the triangles of its tree, with their alpha.
+//! Queries of rays on a scene: geometry by the tree, alpha by the materials.
 
 use glam::{Vec3, Vec3A};
 
@@ -6,11 +6,11 @@ use super::wide::{Probe, WideTree};
 use crate::base::ids::TriangleId;
 use crate::scene::{AlphaMode, Scene, edge_cross};
 
-/// Answers ray queries on one scene. Backs of double-sided triangles that a bake wrote out are not in the tree.
+/// Traces rays through one scene. The tree holds its fronts only, so that each surface is hit once.
 pub struct Tracer<'a> {
     scene: &'a Scene,
     tree: WideTree,
-    /// In the order in which the tree numbers its triangles.
+    /// In the order in which the tree numbers the triangles.
     leaves: Vec<Leaf>,
 }
 
@@ -18,23 +18,23 @@ pub struct Tracer<'a> {
 #[derive(Clone, Copy)]
 struct Leaf {
     triangle: TriangleId,
-    /// Every ray that meets it ends: no alpha to look up.
+    /// Its material has no alpha, so that every ray that meets it ends.
     is_opaque: bool,
 }
 
-/// Share of light below which nothing passes.
+/// Share of light that counts as none.
 const DARK: f32 = 1e-3;
 
-/// What a ray meets first.
+/// The first surface that a ray meets.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Along the ray, in lengths of its direction vector.
+    /// Distance along the ray, in lengths of its direction vector.
     pub distance: f32,
     /// The triangle.
     pub triangle: TriangleId,
-    /// Weights of the triangle's three corners at the hit.
+    /// Barycentric coordinates of the hit.
     pub barycentric: Vec3,
-    /// The ray comes from the front side.
+    /// The ray comes from the front.
     pub is_front: bool,
 }
 
@@ -62,15 +62,15 @@ impl<'a> Tracer<'a> {
         self.scene
     }
 
-    /// The nearest surface along `direction` (any length) closer than `max_distance`; cut-outs are passed through, and
-    /// surfaces that blend count as solid from half opacity on.
+    /// The nearest surface along `direction` (any length) within `max_distance`. Rays pass through cut-outs, and
+    /// through surfaces that blend with less than half opacity.
     #[must_use]
     pub fn nearest(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Option<Hit> {
         self.nearest_solid(origin, direction, max_distance, |_| 0.5)
     }
 
-    /// The nearest surface as [`Tracer::nearest`] finds it, where each triangle has its own smallest opacity, above 0,
-    /// that counts as solid: drawn evenly from 0..1, it lets a surface pass the right share of all rays.
+    /// The nearest surface as by [`Tracer::nearest`], with the smallest opacity that counts as solid, above 0, by
+    /// triangle. If it is uniformly random in 0..1, a surface stops the share of all rays that equals its opacity.
     #[must_use]
     pub fn nearest_solid(
         &self,
@@ -98,8 +98,8 @@ impl<'a> Tracer<'a> {
         Some(Hit { distance, triangle, barycentric: Vec3::new(1.0 - u - v, u, v), is_front })
     }
 
-    /// Share of light that passes along `direction` up to `max_distance`: 0 behind anything opaque, the product of
-    /// 1 - alpha behind surfaces that blend.
+    /// Share of light that passes along `direction` up to `max_distance`: the product of 1 - alpha over all surfaces on
+    /// the way, 0 if one of them is opaque.
     #[must_use]
     pub fn transmittance(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> f32 {
         let mut passing = 1.0;
@@ -114,8 +114,8 @@ impl<'a> Tracer<'a> {
         if passing >= DARK { passing } else { 0.0 }
     }
 
-    /// Share of light that passes, channel by channel, as [`Tracer::transmittance`] has it; but where `pane` knows what a
-    /// triangle lets pass at a point, given by the weights of its corners, that counts.
+    /// Share of light that passes, per channel, as by [`Tracer::transmittance`]. `pane` returns the share that passes a
+    /// triangle at a point with some barycentric coordinates, or `None` if its alpha decides.
     #[must_use]
     pub fn coloured_transmittance(
         &self,
@@ -146,7 +146,7 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// Numbers of the bits that are set.
+/// Indices of the bits that are set.
 fn lanes(mut bits: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let lane = bits.trailing_zeros() as usize;
@@ -185,7 +185,7 @@ mod tests {
     }
 
     #[test]
-    fn rays_along_an_axis_meet_flat_boxes_whatever_the_sign_of_zero() {
+    fn rays_along_an_axis_meet_flat_boxes_with_either_sign_of_zero() {
         let scene = squares(&[0.0], AlphaMode::Opaque, 1.0);
         let tracer = Tracer::new(&scene);
         for zeros in [[0.0, 0.0], [-0.0, 0.0], [0.0, -0.0], [-0.0, -0.0]] {
@@ -196,14 +196,14 @@ mod tests {
     }
 
     #[test]
-    fn two_half_transparent_squares_pass_a_quarter() {
+    fn two_half_transparent_squares_let_a_quarter_pass() {
         let scene = squares(&[0.0, 1.0], AlphaMode::Blend, 0.5);
         let passing = Tracer::new(&scene).transmittance(Vec3::new(0.3, 0.4, 5.0), Vec3::NEG_Z, 100.0);
         assert!((passing - 0.25).abs() < 1e-6, "{passing}");
     }
 
     #[test]
-    fn cut_outs_pass_everything() {
+    fn cut_outs_let_all_light_pass() {
         let scene = squares(&[0.0], AlphaMode::Mask { cutoff: 0.5 }, 0.2);
         assert_eq!(Tracer::new(&scene).transmittance(Vec3::new(0.3, 0.4, 5.0), Vec3::NEG_Z, 100.0), 1.0);
     }
