@@ -32,7 +32,6 @@ pub fn from_scene(mut scene: Scene) -> Result<BakedScene, Scene> {
     }
     let records = std::mem::take(&mut scene.element_records);
     let Recorded { trees, pairs, notes } = elements::read(&scene, &records);
-    notes.iter().for_each(|note| log::warn!("{}: {note}", scene.name));
     scene.notes.extend(notes);
     scene.sides.add_pairs(pairs);
     if scene.sides.num_unpaired() > 0 {

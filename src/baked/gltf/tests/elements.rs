@@ -49,6 +49,10 @@ fn coarse(baked: &BakedScene, trees: Option<&BisectionTrees>) -> Vec<([[u32; 3];
     found
 }
 
+fn num_elements(trees: &str) -> usize {
+    BisectionTrees::parse(trees).expect("trees").num_elements()
+}
+
 /// Corners of all fronts and of their backs, in an order that does not depend on the file.
 fn pairs(scene: &Scene) -> Vec<[[[u32; 3]; 3]; 2]> {
     let corners = |t: TriangleId| bits(scene, scene.triangles[t.index()].vertices);
@@ -85,9 +89,12 @@ fn a_file_without_records_is_read_by_guessing() {
 }
 
 #[test]
-fn the_files_of_a_bake_read_and_written_again_are_equal() {
-    let first = to_glb(&fresh(), 0.0).expect("small");
-    assert_eq!(to_glb(&read(reloaded(&first)), 0.0).expect("small"), first);
+fn a_bake_that_is_read_and_written_again_has_the_same_records() {
+    let first = loaded(&fresh());
+    assert!(first.element_records.iter().any(|(_, record)| record.back_of == Some(1)));
+    assert!(first.element_records.iter().all(|(_, record)| record.trees.is_some()));
+    let second = loaded(&read(first.clone()));
+    assert_eq!(second.element_records, first.element_records);
 }
 
 #[test]
@@ -118,14 +125,10 @@ fn damaged_records_are_noted_and_replaced_by_the_guess() {
     };
     for (scene, problem, has_trees) in [
         (with_trees(|_| String::new()), "as leaves", false),
-        (with_trees(|trees| trees.replace('a', "b")), "as leaves", false),
+        (with_trees(|trees| format!("{trees}a")), "as leaves", false),
         (with_trees(|_| "p".repeat(100)), "as leaves", false),
         (with_trees(|_| "\u{0}ä".to_owned()), "as leaves", false),
-        (
-            with_trees(|trees| "a".repeat(BisectionTrees::parse(trees).expect("trees").num_elements() - 2) + "b"),
-            "edges",
-            false,
-        ),
+        (with_trees(|trees| format!("ab{}", "a".repeat(num_elements(trees) - 3))), "edges", false),
         (with_back_of(0), "fronts", true),
         (with_back_of(2), "fronts", true),
         (with_back_of(usize::MAX), "fronts", true),
