@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     // A baked file is a standard .glb. The exposure is for programs that cannot read the stored light in lux.
     let path = std::env::temp_dir().join("hemicube-example.glb");
     baked::gltf::write(&path, &bake.baked, baked::exposure::suited(&bake.baked))?;
-    let BakedScene { scene, light } =
+    let BakedScene { scene, light, .. } =
         baked::gltf::from_scene(load(&path)?).map_err(|scene| format!("{} stores no light", scene.name))?;
     println!("{}: {} vertices", path.display(), scene.vertices.len());
 
