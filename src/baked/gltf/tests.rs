@@ -226,7 +226,7 @@ fn assert_same_material(stored: &Material, back: &Material) {
 }
 
 #[test]
-fn a_bake_keeps_its_materials_under_the_look_that_it_shows() {
+fn a_bake_keeps_its_original_materials() {
     let stored = baked();
     let back = reloaded(&to_glb(&stored, 0.0).expect("small"));
     assert_eq!(back.materials.len(), stored.scene.materials.len());
@@ -277,7 +277,7 @@ fn paint_of_nothing() -> Material {
 }
 
 #[test]
-fn pictures_that_plain_gltf_has_not_are_written_as_png() {
+fn images_of_formats_beyond_plain_gltf_are_written_as_png() {
     let mut image = (*texture(Wrap::Repeat).image).clone();
     image.mime_type = "image/ktx2".into();
     image.encoded = vec![1, 2, 3];

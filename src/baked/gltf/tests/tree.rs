@@ -21,7 +21,7 @@ fn tree() -> Vec<NamedNode> {
 }
 
 #[test]
-fn the_tree_is_kept_with_its_names_and_transforms() {
+fn the_node_tree_is_kept_with_its_names_and_transforms() {
     let glb = scene_to_glb(&Scene { nodes: tree(), ..scene() }).expect("small");
     let file = gltf::Gltf::from_slice(&glb).expect("valid glTF");
     let mut roots = file.scenes().flat_map(|scene| scene.nodes().collect::<Vec<_>>());
@@ -42,7 +42,7 @@ fn the_tree_is_kept_with_its_names_and_transforms() {
 }
 
 #[test]
-fn light_comes_back_bit_by_bit_from_a_turned_and_mirrored_node_and_the_mesh_stands_where_it_stood() {
+fn a_rotated_and_mirrored_node_keeps_the_light_bit_by_bit_and_the_mesh_in_place() {
     let mut stored = baked();
     stored.scene.nodes = tree();
     let Ok(back) = from_scene(reloaded(&to_glb(&stored, 9.5).expect("small"))) else { panic!("the light is lost") };
@@ -78,7 +78,7 @@ fn slivers_far_from_their_node_are_not_lost() {
 }
 
 #[test]
-fn a_node_that_flattens_its_mesh_is_brought_back_to_the_world() {
+fn a_node_with_a_flat_transform_is_written_in_world_space() {
     let mut nodes = tree();
     nodes[1].transform =
         Transform::Parts { translation: [0.0; 3], rotation: [0.0, 0.0, 0.0, 1.0], scale: [1.0, 1.0, 0.0] };
@@ -93,7 +93,7 @@ fn a_node_that_flattens_its_mesh_is_brought_back_to_the_world() {
 }
 
 #[test]
-fn a_photometric_light_keeps_its_table_its_turn_and_its_group() {
+fn a_photometric_light_keeps_its_table_rotation_and_group() {
     let table = b"IES:LM-63-2019\nTILT=NONE\n1 -1 1 3 1 1 2 0 0 0\n1 1 10\n0 60 90\n0\n40 30 5\n";
     let photometry = Arc::new(photometry::parse(table).expect("LM-63"));
     let mut stored = scene();
