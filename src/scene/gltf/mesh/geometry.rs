@@ -106,7 +106,8 @@ mod tests {
     use glam::Vec3;
     use serde_json::json;
 
-    use crate::base::ids::TriangleId;
+    use super::*;
+    use crate::base::ids::{InstanceId, TriangleId};
     use crate::scene::gltf::fixture::Fixture;
     use crate::scene::{Scene, normal_of};
 
@@ -184,5 +185,22 @@ mod tests {
         assert_eq!(scene.irradiance[0].values[2..4], [Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)]);
         assert_eq!(scene.irradiance[0].values.len(), scene.vertices.len());
         assert_eq!([false, true], [0, 1].map(|t: usize| scene.sides.is_back(TriangleId::new(t))));
+    }
+
+    #[test]
+    fn records_of_elements_are_read_as_far_as_they_have_the_right_types() {
+        let record =
+            |trees: Option<&str>, back_of| ElementRecord { version: 1, trees: trees.map(str::to_owned), back_of };
+        for (elements, expected) in [
+            (json!({"version": 1, "trees": "1ba", "back_of": 1}), Some(record(Some("1ba"), Some(1)))),
+            (json!({"version": 1, "trees": 7, "back_of": -1}), Some(record(None, None))),
+            (json!({"trees": "a"}), None),
+            (json!("a"), None),
+        ] {
+            let mut fixture = Fixture::triangle();
+            fixture.primitive()["extras"] = json!({ "elements": elements });
+            let expected: Vec<_> = expected.map(|record| (InstanceId(0), record)).into_iter().collect();
+            assert_eq!(fixture.load().element_records, expected);
+        }
     }
 }
