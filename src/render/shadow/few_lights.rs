@@ -19,7 +19,7 @@ const MAX_LIGHTS: usize = 4;
 /// What the light samples are like. The surface pass has one pipeline for each, because these are constants of its shader:
 /// software drivers execute both sides of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Kinds {
+pub struct LightKinds {
     num_lights: usize,
     has_maps: bool,
     /// [`LightUniform::kind`] of each, with [`HAS_CUBE`].
@@ -28,7 +28,7 @@ pub struct Kinds {
     has_normal_offset: bool,
 }
 
-impl Kinds {
+impl LightKinds {
     /// Returns the `override` constants of shaders/surface/direct_few.wgsl.
     pub fn constants(&self) -> Vec<(&'static str, f64)> {
         let switch = |is_on: bool| f64::from(u8::from(is_on));
@@ -46,7 +46,7 @@ impl Kinds {
 /// Light samples and their maps, bound for the surface pass.
 pub struct FewLights {
     /// What the samples are like.
-    pub kinds: Kinds,
+    pub kinds: LightKinds,
     /// Bind group 3.
     pub bindings: wgpu::BindGroup,
 }
@@ -86,7 +86,7 @@ impl FewLightsPass {
         samples: &[LightSample],
     ) -> FewLights {
         let has_maps = settings.technique == ShadowTechnique::Map;
-        let mut kinds = Kinds {
+        let mut kinds = LightKinds {
             num_lights: samples.len(),
             has_maps,
             of_lights: [0; MAX_LIGHTS],

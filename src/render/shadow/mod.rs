@@ -16,15 +16,15 @@
 //! Surfaces that blend throw shadows as if they were solid from half opacity on. They receive none: they keep the light of
 //! the bake.
 
-pub mod comparison;
-pub mod debug;
-pub mod few_lights;
-pub mod light;
-pub mod map;
-pub mod planar;
-pub mod real_time;
-pub mod shared;
-pub mod volume;
+pub(crate) mod comparison;
+pub(crate) mod debug;
+pub(crate) mod few_lights;
+pub(crate) mod light;
+pub(crate) mod map;
+pub(crate) mod planar;
+pub(crate) mod real_time;
+pub(crate) mod shared;
+pub(crate) mod volume;
 
 mod cutout;
 mod dispatch;
@@ -36,16 +36,16 @@ mod technique;
 pub use comparison::{
     ComparedScene, Decisions, SampleDecisions, ShadowComparison, ShadowDifference, shadow_difference,
 };
-pub use debug::{DebugView, DebugViewInfo, ShadowDebug};
+pub use debug::{DebugView, DebugViewInfo, ShadowDebug, count_colour};
 pub use dispatch::known_fault;
 pub use light::batch::{MOST_POINTS, SampleBatch, num_batches};
 pub use light::sample::LightSample;
 pub use light::samples::light_samples;
 pub use map::settings::MapSettings;
 pub use planar::settings::PlanarSettings;
-pub use real_time::RealTimeLight;
+pub(crate) use real_time::RealTimeLight;
 pub use settings::ShadowSettings;
-pub use shared::frame_context::FrameContext;
+pub(crate) use shared::frame_context::FrameContext;
 pub use shared::scene::ShadowScene;
 pub use technique::{ShadowTechnique, TechniqueInfo};
 pub use volume::KnownFault;

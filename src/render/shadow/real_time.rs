@@ -21,7 +21,7 @@ use super::technique::ShadowTechnique;
 use crate::gpu::Gpu;
 
 /// The direct light of a picture, as the surface pass reads it.
-pub enum LiveLight {
+pub enum DirectLight {
     /// Light samples that the surface pass adds itself.
     Few(FewLights),
     /// A texture of irradiance times pre-exposure, one value a pixel.
@@ -100,16 +100,16 @@ impl RealTimeLight {
         encoder: &mut wgpu::CommandEncoder,
         frame: FrameContext<'_>,
         settings: &ShadowSettings,
-    ) -> LiveLight {
+    ) -> DirectLight {
         if let Some(lights) = self.few_lights.draw(encoder, frame, settings) {
             frame.lap(encoder, "shadow maps");
-            return LiveLight::Few(lights);
+            return DirectLight::Few(lights);
         }
         let adds_to_last = settings.batch.is_some_and(|batch| !batch.is_first());
         if let Some(rays) = self.rays(frame.gpu, settings.technique) {
             let samples = settings.samples(frame.shadows);
             let draw = || rays.draw(frame, &samples, adds_to_last);
-            return LiveLight::Pixels(frame.time_work("rays, on the processor", draw));
+            return DirectLight::Pixels(frame.time_work("rays, on the processor", draw));
         }
         let run = frame.time_work("silhouettes, on the processor", || self.prepare(frame, settings));
         self.draw_depth(encoder, &run);
@@ -125,7 +125,7 @@ impl RealTimeLight {
         }
         let irradiance = run.targets.irradiance_view.clone();
         self.keep_targets(run);
-        if self.setup.samples > 1 { LiveLight::Samples(irradiance) } else { LiveLight::Pixels(irradiance) }
+        if self.setup.samples > 1 { DirectLight::Samples(irradiance) } else { DirectLight::Pixels(irradiance) }
     }
 
     /// Samples a pixel.

@@ -31,7 +31,7 @@ pub struct ShadowSettings {
 }
 
 impl ShadowSettings {
-    /// Returns settings of `technique` with all remedies for its faults in force.
+    /// Returns settings of `technique` with all cures for its faults in force.
     #[must_use]
     pub fn new(technique: ShadowTechnique) -> Self {
         Self {

@@ -3,7 +3,7 @@
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
 use crate::render::shadow::few_lights;
-use crate::render::shadow::real_time::LiveLight;
+use crate::render::shadow::real_time::DirectLight;
 
 /// Surface pass: radiance of each visible point.
 pub(in crate::render) const SURFACE: Shader = shader!(
@@ -101,12 +101,12 @@ pub enum DirectSource {
 
 impl DirectSource {
     /// Where it comes from with this light of the lights themselves.
-    pub fn of(live: Option<&LiveLight>) -> Self {
+    pub fn of(live: Option<&DirectLight>) -> Self {
         match live {
             None => DirectSource::Stored,
-            Some(LiveLight::Pixels(_)) => DirectSource::Pixels,
-            Some(LiveLight::Samples(_)) => DirectSource::Samples,
-            Some(LiveLight::Few(_)) => DirectSource::Few,
+            Some(DirectLight::Pixels(_)) => DirectSource::Pixels,
+            Some(DirectLight::Samples(_)) => DirectSource::Samples,
+            Some(DirectLight::Few(_)) => DirectSource::Few,
         }
     }
 

@@ -9,15 +9,15 @@ use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
 use crate::render::scene::draw_batch::DrawBatch;
 use crate::render::scene::materials::material_layout;
-use crate::render::shadow::few_lights::Kinds;
-use crate::render::shadow::real_time::LiveLight;
+use crate::render::shadow::few_lights::LightKinds;
+use crate::render::shadow::real_time::DirectLight;
 use crate::render::targets::HDR_FORMAT;
 
 /// Pipelines that are kept. One picture needs a few, and a software driver keeps a megabyte for each (Mesa 22.3).
 const MOST_PIPELINES: usize = 16;
 
 /// What a pipeline depends on: the surface, and the kinds of a few light samples.
-type PipelineKey = (Variant, Option<Kinds>);
+type PipelineKey = (Variant, Option<LightKinds>);
 
 /// What the surface pass draws.
 #[derive(Clone, Copy)]
@@ -33,7 +33,7 @@ pub struct SurfaceInput<'a> {
     /// The metered exposure, for display colours without a fixed exposure.
     pub exposure: &'a wgpu::Buffer,
     /// Direct light from the lights themselves.
-    pub live: Option<&'a LiveLight>,
+    pub live: Option<&'a DirectLight>,
 }
 
 /// Surface pass.
@@ -141,7 +141,7 @@ impl SurfacePass {
     ) {
         let SurfaceInput { bindings, in_view: scene, settings, stored, exposure, live } = input;
         let kinds = match live {
-            Some(LiveLight::Few(lights)) => Some(lights.kinds),
+            Some(DirectLight::Few(lights)) => Some(lights.kinds),
             _ => None,
         };
         let variant = |batch: &DrawBatch| (Variant::new(batch, settings, targets.output), kinds);
@@ -178,10 +178,10 @@ impl SurfacePass {
         }
     }
 
-    fn bind(&self, gpu: &Gpu, live: &LiveLight) -> Option<wgpu::BindGroup> {
+    fn bind(&self, gpu: &Gpu, live: &DirectLight) -> Option<wgpu::BindGroup> {
         let view = match live {
-            LiveLight::Few(lights) => return Some(lights.bindings.clone()),
-            LiveLight::Pixels(view) | LiveLight::Samples(view) => view,
+            DirectLight::Few(lights) => return Some(lights.bindings.clone()),
+            DirectLight::Pixels(view) | DirectLight::Samples(view) => view,
         };
         self.direct_layout.as_ref().map(|layout| {
             gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
@@ -198,7 +198,7 @@ impl SurfacePass {
             return kept.clone();
         }
         let (variant, kinds) = key;
-        let mut constants: Vec<_> = kinds.iter().flat_map(Kinds::constants).collect();
+        let mut constants: Vec<_> = kinds.iter().flat_map(LightKinds::constants).collect();
         if self.source == DirectSource::Few {
             constants.push(("ONE_SAMPLE", f64::from(u8::from(self.samples == 1))));
         }

@@ -1,7 +1,7 @@
 //! Planar shadow pass: marks in the stencil which points are on a receiver, and which of them are in shadow.
 //!
 //! The stencil holds the number of a point's receiver in its upper five bits and counts shadows in the lower three (see
-//! [`stencil`](crate::render::shadow::shared::stencil)). Each of the text book's faults has a remedy in [`PlanarSettings`].
+//! [`stencil`](crate::render::shadow::shared::stencil)). Each of the text book's faults has a cure in [`PlanarSettings`].
 
 use glam::Vec4;
 use wgpu::util::DeviceExt;

@@ -1,4 +1,4 @@
-//! Settings of planar shadows: what receives and throws them, and the remedies for their faults.
+//! Settings of planar shadows: what receives and throws them, and the cures for their faults.
 
 use std::collections::BTreeSet;
 

@@ -51,8 +51,7 @@ impl ShadowScene {
     }
 
     /// Opaque triangles, which throw shadows.
-    #[must_use]
-    pub fn casters(&self) -> &Casters {
+    pub(in crate::render::shadow) fn casters(&self) -> &Casters {
         &self.casters
     }
 
@@ -71,7 +70,7 @@ impl ShadowScene {
     }
 
     /// Frees what no picture has used for some seconds. Called after each picture.
-    pub fn drop_unused(&self) {
+    pub(in crate::render) fn drop_unused(&self) {
         self.lock().values().for_each(|data| data.drop_unused());
     }
 

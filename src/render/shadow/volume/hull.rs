@@ -142,3 +142,32 @@ fn near(corner: u32) -> u32 {
 fn far(corner: u32) -> u32 {
     2 * corner + 1
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::render::shadow::volume::silhouette::facing;
+    use crate::scene::{Material, SceneBuilder};
+
+    #[test]
+    fn corners_in_the_middle_of_an_edge_cut_its_side() {
+        let mut builder = SceneBuilder::default();
+        let material = builder.material(Material::default());
+        let floor = [(-4.0, 4.0), (4.0, 4.0), (4.0, -4.0), (-4.0, -4.0)].map(|(x, z)| Vec3::new(x, 0.0, z));
+        builder.quad(floor, material);
+        // One quad beside seven that share its edge, in a tilted plane where nothing is exact.
+        let (u, v) = (Vec3::new(1.3, 0.17, 0.29), Vec3::new(-0.23, 0.31, -1.1));
+        let origin = Vec3::new(-1.0, 1.7, 0.6);
+        builder.quad([origin, origin + u, origin + u + v, origin + v], material);
+        let near: Vec<Vec3> = (0..=7).map(|i| origin + u + v * (i as f32 / 7.0)).collect();
+        let far: Vec<Vec3> = near.iter().map(|&corner| corner + u).collect();
+        for i in 0..7 {
+            builder.quad([near[i], far[i], far[i + 1], near[i + 1]], material);
+        }
+        let casters = Casters::new(&builder.build());
+        let light = Vec4::new(0.7, 4.0, 0.4, 1.0);
+        let hull = hull(&casters, &facing(&casters, light), light, Counting::DepthPass);
+        let sides = (hull.counter_clockwise.len() + hull.clockwise.len()) / 6;
+        assert_eq!(sides, 4 + 3 + 7 + 2, "sides of the floor and of the outline");
+    }
+}

@@ -1,4 +1,4 @@
-//! Views from which shadow volumes are known to be wrong with their remedies switched off.
+//! Views from which shadow volumes are known to be wrong with their cures switched off.
 
 use glam::{Vec3, Vec4};
 
@@ -12,12 +12,12 @@ use crate::render::shadow::shared::scene::ShadowScene;
 /// Why shadows are known to be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KnownFault {
-    /// Depth-pass without its remedy counts from outside, but the eye is in a volume of this lamp.
+    /// Depth-pass without its cure counts from outside, but the eye is in a volume of this lamp.
     EyeInVolume {
         /// [`LightSample::lamp`].
         lamp: usize,
     },
-    /// Depth-pass without its remedy, and a part of the near plane is in a volume of this lamp.
+    /// Depth-pass without its cure, and a part of the near plane is in a volume of this lamp.
     NearPlaneCutsVolume {
         /// [`LightSample::lamp`].
         lamp: usize,

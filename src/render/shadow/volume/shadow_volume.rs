@@ -1,6 +1,6 @@
 //! Shadow volume pass: counts in the stencil the volumes that each visible point is in.
 //!
-//! The volumes of a light are kept from picture to picture while neither light nor casters move; the remedy of z-pass depends
+//! The volumes of a light are kept from picture to picture while neither light nor casters move; the cure of z-pass depends
 //! on the view as well. An orthographic view has a far plane, which cuts volumes off as [`VolumeSettings::far_plane`] does.
 
 use std::collections::HashMap;

@@ -41,3 +41,23 @@ pub fn count(casters: &Casters, edge: &Edge, facing: &[i32]) -> i32 {
 pub fn silhouette(casters: &Casters, facing: &[i32]) -> Vec<[u32; 2]> {
     casters.edges.iter().filter(|edge| count(casters, edge, facing) != 0).map(|edge| edge.ends).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Quat;
+
+    use super::*;
+    use crate::scene::{Material, SceneBuilder};
+
+    #[test]
+    fn a_light_above_sees_the_outline_of_floor_and_cube() {
+        let mut builder = SceneBuilder::default();
+        let material = builder.material(Material::default());
+        let floor = [(-4.0, 4.0), (4.0, 4.0), (4.0, -4.0), (-4.0, -4.0)].map(|(x, z)| Vec3::new(x, 0.0, z));
+        builder.quad(floor, material).block(Vec3::new(0.0, 1.2, 0.0), Vec3::splat(0.5), Quat::IDENTITY, material);
+        let casters = Casters::new(&builder.build());
+        let edges = silhouette(&casters, &facing(&casters, Vec4::new(0.0, 4.0, 0.0, 1.0)));
+        assert_eq!(edges.len(), 8, "four of the floor, four of the cube's top");
+        assert!(edges.iter().flatten().all(|&corner| [0.0, 1.7].contains(&casters.positions[corner as usize].y)));
+    }
+}

@@ -1,7 +1,7 @@
 //! The volumes of one light, each triangle counted in the way that is right for it.
 //!
 //! z-pass counts faces between eye and point, so it is wrong where the near plane is in a volume: the face through which the
-//! eye entered is cut away. The remedy counts the few triangles whose volumes reach the near plane by z-fail and all others
+//! eye entered is cut away. The cure counts the few triangles whose volumes reach the near plane by z-fail and all others
 //! by z-pass: a count is a sum over triangles, and each summand may be counted either way (the idea of ZP+, Hornus et al.
 //! 2005, "ZP+: correct z-pass stencil shadows", which counts the near plane in a pass of its own).
 
@@ -25,7 +25,7 @@ pub struct Volumes {
     pub terminator: Hull,
 }
 
-/// The eye, for the remedy of z-pass.
+/// The eye, for the cure of z-pass.
 pub struct Viewpoint {
     /// Homogeneous position.
     position: DVec4,

@@ -5,8 +5,7 @@ use egui::{Align2, Area, Color32, CursorIcon, FontId, Id, Order, Painter, Pos2, 
 use super::super::chrome::theme;
 use super::super::chrome::widgets::named;
 use super::super::facts::Facts;
-use crate::render::shadow::DebugView;
-use crate::render::shadow::debug::count_colour;
+use crate::render::shadow::{DebugView, count_colour};
 use crate::viewer::settings::comparison::ComparisonLayout;
 use crate::viewer::settings::light::LightSettings;
 
