@@ -1,12 +1,14 @@
-//! Milliseconds a frame of each shadow technique, and how many times as long as without shadows, in one run.
+//! Measures milliseconds a frame for each shadow technique, and the ratio to a frame without shadows, in one run.
 //!
-//! `cargo bench --bench shadows -- [SCENE.glb ...]`; without a scene the built-in gallery. 1280 x 720 pixels, one sample a
-//! pixel and emissive surface, the first camera; the best of a few frames counts, the first is not among them.
+//! `cargo bench --bench shadows -- [SCENE.glb ...]`; without a scene it measures the built-in gallery. Pictures have
+//! 1280 x 720 pixels, one sample a pixel and one point an emissive surface, from the first camera. The best of a few
+//! frames counts, without the first.
 //!
-//! Of a bake one more line tells how long its elements take without the coarse mesh that pictures draw.
+//! For a bake, one more line is the time of its elements without the coarse mesh that pictures draw.
 //!
-//! The last two lines are to stand beside other viewers: the stored light alone, and with one spot light under the middle of the
-//! ceiling in place of the scene's own, which throws its shadow by one map of 2048 texels (kept while nothing moves).
+//! The last two lines can be compared with other viewers: the stored light alone, and with one spot light under the
+//! middle of the ceiling in place of the scene's lights, with a shadow map of 2048 texels that is kept while nothing
+//! moves.
 
 use std::f32::consts::FRAC_PI_3;
 use std::path::PathBuf;
@@ -25,7 +27,7 @@ use hemicube::render::{
 use hemicube::scene::{Camera, Light, Scene, builtin, gltf};
 
 const SIZE: [u32; 2] = [1280, 720];
-/// Frames of which the best counts.
+/// Frames that are measured; the best counts.
 const FRAMES: usize = 8;
 
 fn main() -> anyhow::Result<()> {
@@ -49,7 +51,7 @@ fn bench(gpu: &Gpu, scene: Scene) {
     let light = VertexLight::dark(1, spot.vertices.len());
     let under_spot = Stage::new(gpu, BakedScene::new(spot, light));
     let mut stage = Stage::new(gpu, baked);
-    // First, before the machine is hot.
+    // First, before the processor slows down as it heats up.
     let map = ShadowSettings::new(ShadowTechnique::Map);
     let stored = stage.milliseconds(gpu, None);
     let one_map = under_spot.milliseconds(gpu, Some(&map));
@@ -68,7 +70,7 @@ fn bench(gpu: &Gpu, scene: Scene) {
     println!("{:<18} {one_map:>8.1} ms", "and one map");
 }
 
-/// The scene in the light of one spot under the middle of its ceiling.
+/// Returns the scene with one spot light under the middle of its ceiling as its only light.
 fn with_one_spot(mut scene: Scene) -> Scene {
     let bounds = scene.bounds();
     let position = bounds.centre().with_y(bounds.high.y - 0.02 * bounds.size().y);
@@ -81,7 +83,7 @@ fn with_one_spot(mut scene: Scene) -> Scene {
     scene
 }
 
-/// A scene on the device, seen by its first camera.
+/// A scene on the device, and its first camera.
 struct Stage {
     buffers: SceneBuffers,
     shadows: Arc<ShadowScene>,
@@ -110,7 +112,7 @@ impl Stage {
         }
     }
 
-    /// Time of the fastest frame.
+    /// Returns the time of the fastest frame.
     fn milliseconds(&self, gpu: &Gpu, settings: Option<&ShadowSettings>) -> f64 {
         let mut renderer = Renderer::new(gpu, wgpu::TextureFormat::Rgba8Unorm, 1);
         let render_settings =

@@ -1,5 +1,5 @@
-// Surface pass: adds the direct light of up to four light samples, each with its shadow map or unshadowed. The bindings are
-// written by src/render/shadow/few_lights.rs.
+// Surface pass: adds the direct light of up to four light samples, each with its shadow map or unshadowed. The
+// bindings are written by src/render/shadow/few_lights.rs.
 
 const MAX_LIGHTS: u32 = 4u;
 // What the lights are like, as constants: software drivers execute both sides of a branch.
@@ -62,8 +62,8 @@ fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> Shown {
     return surface_colour(in, is_front, direct);
 }
 
-// Returns the visible point in light space: that at the centre of the pixel, or the centroid if the centre can lie outside the
-// triangle.
+// Returns the visible point in light space: that at the centre of the pixel, or the centroid if the centre can lie
+// outside the triangle.
 fn receiver(index: u32, kind: u32, in: Varying, is_front: bool, middle: vec3f, normal: vec3f) -> Receiver {
     if ONE_SAMPLE {
         let position = from_light(lights[index], kind, middle);
@@ -87,5 +87,5 @@ fn received(
     if !HAS_MAPS {
         return received;
     }
-    return received * seen_share(any(received > vec3f(0.0)), kind, arrival, shadow_maps[index], map, block_planes, map_sampler, at);
+    return received * visible_share(any(received > vec3f(0.0)), kind, arrival, shadow_maps[index], map, block_planes, map_sampler, at);
 }

@@ -16,7 +16,7 @@ override SHADING: u32 = SHADING_LIT;
 const PI: f32 = 3.14159265358979;
 // Largest value that a half float holds, with room for rounding.
 const LARGEST_HALF: f32 = 65000.0;
-// Direct light comes from the lights themselves (shaders/direct_light.wgsl) and not from the vertices.
+// Direct light comes from the lights themselves (shaders/shadow/light/direct_light.wgsl) and not from the vertices.
 override LIT_BY_LIGHTS: bool = false;
 // The target shows the radiance under the exposure that is given or was metered last, by this tone map; else it holds the
 // radiance itself.

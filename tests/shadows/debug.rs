@@ -1,4 +1,4 @@
-//! Debug views show what the techniques work with.
+//! Debug views show the data of the techniques.
 
 use glam::Vec3;
 use hemicube::gpu::Gpu;
@@ -36,7 +36,7 @@ fn num_changed(a: &Picture, b: &Picture) -> usize {
 }
 
 #[test]
-fn what_is_counted_once_has_the_colour_of_one() {
+fn a_count_of_one_has_the_colour_of_one() {
     let Some(gpu) = gpu() else { return };
     let shot = stage().shot(gpu);
     for technique in [ShadowTechnique::VolumeDepthFail, ShadowTechnique::VolumeDepthPass, ShadowTechnique::Planar] {
@@ -68,7 +68,7 @@ fn a_map_shows_the_cube_nearer_than_the_floor() {
     let (row, column) = (SIZE[1] as usize / 2 + side / 2, left + side / 2);
     let [top, floor] = [column, column + side * 3 / 8].map(|x| pixel(&shown, row * SIZE[0] as usize + x)[0]);
     assert!(top > floor + 20, "{top} and {floor}");
-    // It looks up into nothing.
+    // The face that looks up is empty.
     let [r, _, b] = pixel(&shown, (SIZE[1] as usize / 2 - side / 2) * SIZE[0] as usize + column + 2 * side);
     assert!(b > r + 20, "{r} {b}");
 }

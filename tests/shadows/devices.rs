@@ -1,4 +1,4 @@
-//! Shadows on a device that offers nothing optional.
+//! Shadows on a device without optional features.
 
 use std::sync::Arc;
 
@@ -11,14 +11,14 @@ use hemicube::render::{ShadowScene, ShadowTechnique, View};
 use super::stage::{SIZE, Stage, at, num_different, places, raytraced, settings};
 use crate::support::device::gpu;
 
-/// A second device of the adapter: 24 bits of depth, light added up in half floats.
+/// A second device of the adapter, without features: 24 bits of depth, light is added up in 16-bit floats.
 fn plain_device(gpu: &Gpu) -> Gpu {
     let descriptor = wgpu::DeviceDescriptor { required_limits: gpu.adapter.limits(), ..Default::default() };
     let (device, queue) = pollster::block_on(gpu.adapter.request_device(&descriptor)).expect("a plain device");
     Gpu::from_parts(gpu.instance.clone(), gpu.adapter.clone(), device, queue)
 }
 
-/// No picture or window that we draw to has a stencil: shadows bring their own, in a format that every device has.
+/// Shadows have a stencil of their own, in a format that every device has.
 #[test]
 fn case_24_without_optional_formats_shadows_are_as_exact() {
     let Some(gpu) = gpu() else { return };

@@ -1,4 +1,4 @@
-//! What the viewer's laboratory shows: light that is added up in parts, known faults, choices by clicking, times.
+//! What the viewer shows of shadows: light that is added up in parts, known faults, chosen planes and casters, times.
 
 use glam::Vec3;
 use hemicube::base::ids::{GroupId, InstanceId, TriangleId};
@@ -23,6 +23,7 @@ fn soft_stage() -> Stage {
     stage
 }
 
+/// A renderer and its target.
 struct Easel {
     renderer: Renderer,
     target: wgpu::Texture,
@@ -52,7 +53,7 @@ impl Easel {
 }
 
 #[test]
-fn light_that_is_added_up_in_parts_is_the_light_of_all_points_at_once() {
+fn batches_add_up_to_the_light_of_all_points() {
     let Some(gpu) = gpu() else { return };
     let shot = soft_stage().shot(gpu);
     for technique in [ShadowTechnique::VolumeDepthFail, ShadowTechnique::Raytraced] {
@@ -74,9 +75,9 @@ fn light_that_is_added_up_in_parts_is_the_light_of_all_points_at_once() {
 }
 
 #[test]
-fn maps_that_are_kept_show_what_new_ones_would() {
+fn kept_maps_show_the_same_as_new_maps() {
     let Some(gpu) = gpu() else { return };
-    // More faces than are kept, so that some make room for others.
+    // More faces than are kept, so that some are replaced.
     let lit_by_three = |height: f32| {
         let mut stage = Stage::new();
         stage.cube(at(0.0, height, 0.0), 0);
@@ -88,13 +89,13 @@ fn maps_that_are_kept_show_what_new_ones_would() {
         stage.shot(gpu)
     };
     let map = settings(ShadowTechnique::Map);
-    let anew = |shot: &Shot| {
+    let from_new_maps = |shot: &Shot| {
         let mut easel = Easel::new(gpu);
         easel.add(gpu, shot, &map, false);
         easel.display(gpu)
     };
     let shots = [1.0, 1.8].map(lit_by_three);
-    let pictures = shots.each_ref().map(anew);
+    let pictures = shots.each_ref().map(from_new_maps);
     for shot in &shots {
         let share = shot.fault(gpu, &map);
         assert!(share <= 0.005, "{share} of the decisions are wrong");
@@ -107,7 +108,7 @@ fn maps_that_are_kept_show_what_new_ones_would() {
 }
 
 #[test]
-fn depth_pass_is_known_to_be_wrong_where_the_eye_is_in_a_shadow() {
+fn depth_pass_without_its_cure_is_known_to_be_wrong_if_the_eye_is_in_a_shadow() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::new();
     stage.cube(at(0.0, 2.0, 0.0), 0);
@@ -126,7 +127,7 @@ fn depth_pass_is_known_to_be_wrong_where_the_eye_is_in_a_shadow() {
     let mut cut_off = settings(ShadowTechnique::VolumeDepthFail);
     cut_off.volumes.far_plane = Some(10.0);
     assert_eq!(fault(&stage, &cut_off), Some(KnownFault::FarPlaneCutsVolumes));
-    // What is known is so: the shadows are wrong there, and right with the cure.
+    // The shadows are indeed wrong there.
     assert!(stage.shot(gpu).fault(gpu, &plain) > 0.01);
 }
 
@@ -142,7 +143,7 @@ fn planes_and_casters_can_be_chosen() {
     let shot = stage.shot(gpu);
     let dark = |planar: &ShadowSettings| {
         let found = &shot.decisions(gpu, planar).samples[0];
-        let claimed = found.claimed.as_ref().expect("planar shadows claim their receivers only");
+        let claimed = found.claimed.as_ref().expect("planar shadows decide on their receivers only");
         let dark = (0..claimed.len()).filter(|&pixel| claimed[pixel] && !found.lit[pixel]).count();
         (dark, claimed.iter().filter(|claimed| **claimed).count())
     };
@@ -154,8 +155,9 @@ fn planes_and_casters_can_be_chosen() {
     let (second, _) = dark(&planar);
     assert!(second > 100 && second < both - 100, "{second} of {both}");
     planar.planar.toggle_caster(InstanceId(1));
-    assert_eq!(dark(&planar).0, both, "none chosen is all");
-    // The other triangle of the floor is the same plane: it is dropped again, and the largest planes receive.
+    assert_eq!(dark(&planar).0, both, "if none is chosen, all throw shadows");
+    // The other triangle of the floor is in the same plane: the plane is removed, and the largest planes receive
+    // shadows.
     planar.planar.toggle_receiver(&stage.scene, TriangleId(1));
     assert!(planar.planar.receivers.is_empty() && dark(&planar).1 > on_floor);
 }
@@ -167,7 +169,7 @@ fn every_pass_is_timed() {
     let mut easel = Easel::new(gpu);
     let watch = Stopwatch::new(gpu);
     let view = easel.target.create_view(&Default::default());
-    // More points than the surface pass adds itself.
+    // More points than the surface pass can add itself.
     let map = ShadowSettings { light_samples: 8, ..settings(ShadowTechnique::Map) };
     let render_settings = RenderSettings { shadows: Some(map), ..RenderSettings::default() };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -1,4 +1,4 @@
-//! How much light arrives: soft shadows, closed forms, and the share of the bake.
+//! Amounts of light: soft shadows, closed forms, and the stored light of a bake.
 
 use glam::Vec3;
 use hemicube::baked::VertexLight;
@@ -11,7 +11,7 @@ use super::stage::{SIZE, Shot, Stage, at, num_different, paint, settings};
 use crate::support::device::gpu;
 
 #[test]
-fn soft_shadows_are_the_mean_of_the_rays_to_the_same_points() {
+fn soft_shadows_are_the_mean_of_rays_to_the_same_points() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::new();
     stage.cube(at(0.0, 1.2, 0.0), 0);
@@ -26,7 +26,7 @@ fn soft_shadows_are_the_mean_of_the_rays_to_the_same_points() {
     assert_eq!((truth.samples.len(), num_different(&shadow_difference(&found, &truth))), (64, 0));
     let [soft, rays] =
         [ShadowTechnique::VolumeDepthFail, ShadowTechnique::Raytraced].map(|t| shot.picture(gpu, &with(t), 1));
-    // Where no sample's edge passes, the sums agree.
+    // The sums agree except at the edges of a sample's shadow.
     let is_at_edge = at_edges(&truth);
     let num_compared = is_at_edge.iter().filter(|is_at_edge| !**is_at_edge).count();
     assert!(num_compared > is_at_edge.len() / 2, "{num_compared} pixels compared");
@@ -36,7 +36,7 @@ fn soft_shadows_are_the_mean_of_the_rays_to_the_same_points() {
     }
 }
 
-/// Pixels next to one about which some sample decides otherwise: there its edge may move by a pixel.
+/// Returns the pixels with a neighbour whose decision about some sample differs: its edge may move by a pixel.
 fn at_edges(truth: &Decisions) -> Vec<bool> {
     let [width, height] = truth.size.map(|side| side as usize);
     let around = |at: usize, limit: usize| at.saturating_sub(1)..=(at + 1).min(limit - 1);
@@ -61,7 +61,7 @@ fn direct_light_of_many_samples_is_that_of_the_closed_form() {
 }
 
 #[test]
-fn the_surface_pass_adds_the_light_of_a_few_lamps_as_passes_of_their_own_do() {
+fn the_surface_pass_adds_the_same_light_as_the_direct_light_pass() {
     let Some(gpu) = gpu() else { return };
     let place = Vec3::new(-2.0, 3.0, 1.5);
     let spot = LightKind::Spot { position: place, direction: -place.normalize(), inner_angle: 0.3, outer_angle: 0.6 };
@@ -86,7 +86,7 @@ fn the_surface_pass_adds_the_light_of_a_few_lamps_as_passes_of_their_own_do() {
                 let pairs = few.radiance.iter().zip(&passes.radiance);
                 let differs = |a: &f32, b: &f32| (a - b).abs() > 0.01 * b.max(0.1);
                 let differing = pairs.filter(|(a, b)| a.iter().zip(*b).any(|(a, b)| differs(a, b))).count();
-                // Where several samples a pixel meet an edge, half floats and centroids are rounded elsewhere.
+                // With several samples a pixel, half floats and centroids are rounded differently at edges.
                 let allowed = if samples > 1 { few.radiance.len() / 4000 } else { 0 };
                 assert!(
                     differing <= allowed,
@@ -98,7 +98,7 @@ fn the_surface_pass_adds_the_light_of_a_few_lamps_as_passes_of_their_own_do() {
 }
 
 #[test]
-fn live_direct_light_takes_the_place_of_the_stored_and_leaves_the_indirect() {
+fn real_time_direct_light_replaces_the_stored_direct_light_and_keeps_the_indirect() {
     let Some(gpu) = gpu() else { return };
     let stage = Stage::new();
     let mut light = VertexLight::dark(1, stage.scene.vertices.len());

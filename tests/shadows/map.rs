@@ -1,4 +1,4 @@
-//! Shadow maps against rays, and against pictures without shadows.
+//! Shadow maps compared with rays, and with pictures without shadows.
 
 use glam::Vec3;
 use hemicube::render::ShadowTechnique;
@@ -23,7 +23,7 @@ fn case_22_maps_are_right_within_their_resolution_and_show_acne_without_bias() {
     for kind in kinds {
         let mut stage = Stage::new();
         stage.cube(at(0.0, 1.0, 0.0), 0).sphere(Vec3::new(-1.6, 1.0, 0.3), 0.6).light(kind);
-        // A slope in every map: the floor lies flat in that of a light above it, as deep everywhere, and shows no acne.
+        // A slope in every map, because a floor below the light has the same depth everywhere and shows no acne.
         stage.quad(Vec3::new(1.2, 0.0, 2.0), Vec3::new(1.4, 1.0, 0.0), Vec3::new(0.0, 0.0, -3.0));
         let shot = stage.shot(gpu);
         let mut map = settings(ShadowTechnique::Map);
@@ -37,10 +37,10 @@ fn case_22_maps_are_right_within_their_resolution_and_show_acne_without_bias() {
 }
 
 #[test]
-fn maps_draw_no_dots_where_triangles_meet() {
+fn maps_draw_no_dots_along_the_edges_of_triangles() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::new();
-    // Walls that are lit all over, seen at a slant across the diagonals of their squares.
+    // Fully lit walls, seen at an angle across the diagonals of their squares.
     stage.quad(Vec3::new(-5.0, 0.5, 4.0), -8.0 * Vec3::Z, 4.5 * Vec3::Y);
     stage.quad(Vec3::new(-4.0, 0.5, -5.0), 8.0 * Vec3::X, 4.5 * Vec3::Y);
     stage.seen(Vec3::new(-2.5, 2.0, 6.0), Vec3::new(-2.0, 1.5, 0.0));
@@ -52,12 +52,12 @@ fn maps_draw_no_dots_where_triangles_meet() {
 }
 
 #[test]
-fn things_of_a_few_texels_throw_their_shadows() {
+fn casters_of_a_few_texels_throw_shadows() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::new();
     stage.light(LightKind::Directional { direction: Vec3::new(0.2, -1.0, -0.1).normalize() });
     stage.seen(Vec3::new(0.0, 3.0, 3.0), Vec3::ZERO);
-    // Some five texels wide, wherever in a block of eight they lie.
+    // About five texels wide, at any position in a block of eight texels.
     let width = 0.1;
     for (column, row) in (0..14).flat_map(|column| (0..14).map(move |row| (column, row))) {
         let corner = Vec3::new(-2.5 + 0.37 * column as f32, 0.3, -3.0 + 0.41 * row as f32);

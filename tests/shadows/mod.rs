@@ -1,4 +1,4 @@
-//! Shadows: every technique against rays, on scenes made to break them.
+//! Shadows: each technique compared with rays, on scenes that are hard for it.
 
 mod debug;
 mod devices;

@@ -1,4 +1,4 @@
-//! Whole pictures: multisampling, and each technique as it looked when it was last approved.
+//! Whole pictures: multisampling, and a snapshot of each technique.
 
 use glam::{Mat4, Quat, Vec3};
 use hemicube::render::ShadowTechnique;
@@ -22,7 +22,7 @@ fn case_23_several_samples_a_pixel_change_edges_only() {
 }
 
 #[test]
-fn each_technique_looks_as_it_did() {
+fn each_technique_looks_like_its_snapshot() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::new();
     stage

@@ -1,4 +1,4 @@
-//! Planar shadows: right on their receivers, and wrong in each way of the text book when its cure is off.
+//! Planar shadows: right on their receivers, and with each fault of the textbook if its cure is off.
 
 use glam::Vec3;
 use hemicube::render::{ShadowSettings, ShadowTechnique};
@@ -8,10 +8,10 @@ use super::stage::{Stage, at, settings};
 use crate::support::device::gpu;
 
 #[test]
-fn case_21_planar_shadows_show_each_fault_when_its_cure_is_off() {
+fn case_21_planar_shadows_show_each_fault_if_its_cure_is_off() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::new();
-    // One box through the floor, one over another, one whose shadow would stick out, one below the floor.
+    // A box through the floor, one over another, one whose shadow reaches beyond the floor, and one below the floor.
     stage.cube(at(-1.5, 0.2, 0.0), 0).cube(at(0.5, 1.0, 0.0), 0).cube(at(0.6, 2.2, 0.1), 0).cube(at(3.4, 0.9, 0.0), 0);
     stage.cube(at(1.0, -1.5, 2.5), 0);
     // A lower floor beyond the edge of the upper one.

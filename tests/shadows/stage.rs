@@ -1,4 +1,4 @@
-//! Scenes made to break shadows, and what is asserted of them.
+//! Scenes that are hard for shadows, and what is asserted of them.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -18,14 +18,14 @@ use crate::support::device::gpu;
 
 pub const SIZE: [u32; 2] = [256, 192];
 
-/// A floor of 8 m, and what stands over it.
+/// A scene with a floor of 8 m x 8 m, and a camera.
 pub struct Stage {
     pub scene: Scene,
     pub camera: Camera,
 }
 
 impl Stage {
-    /// The floor alone, lit by a point light, seen from one side.
+    /// The floor alone, lit by a point light and seen from one side.
     pub fn new() -> Self {
         let mut scene = Scene { materials: vec![paint()], light_groups: vec!["light".to_owned()], ..Scene::default() };
         scene.instances.push(Instance { name: "all".to_owned(), triangles: 0..0 });
@@ -77,7 +77,7 @@ impl Stage {
         self.triangle([origin, origin + u + v, origin + v], material)
     }
 
-    /// The sides of a unit cube under `transform`, but for the first `num_open`.
+    /// The sides of a unit cube under `transform`, without the first `num_open`.
     pub fn cube(&mut self, transform: Mat4, num_open: usize) -> &mut Self {
         let sides = [(Vec3::Y, Vec3::Z, Vec3::X), (Vec3::X, Vec3::Y, Vec3::Z), (Vec3::Z, Vec3::X, Vec3::Y)];
         let faces = sides.into_iter().flat_map(|(n, u, v)| [(n, u, v), (-n, v, u)]);
@@ -95,7 +95,7 @@ impl Stage {
         let at = |i: i32, j: i32| {
             let (phi, theta) =
                 (i as f32 / columns as f32 * std::f32::consts::TAU, j as f32 / rows as f32 * std::f32::consts::PI);
-            // The last column is the first, to the bit.
+            // The last column has exactly the positions of the first.
             let phi = if i == columns { 0.0 } else { phi };
             let theta = if j == rows { std::f32::consts::PI } else { theta };
             let ring = if j == 0 || j == rows { 0.0 } else { theta.sin() };
@@ -116,12 +116,12 @@ impl Stage {
         self
     }
 
-    /// On the device with stored light.
+    /// Uploads the scene with stored light.
     pub fn lit(&self, gpu: &Gpu, light: VertexLight) -> SceneBuffers {
         SceneBuffers::new(gpu, &BakedScene::new(self.scene.clone(), light))
     }
 
-    /// Where the middle of a pixel looks at the floor.
+    /// Returns the point of the floor at the centre of a pixel.
     pub fn floor_under(&self, x: u32, y: u32) -> Vec3 {
         let view = View::from_camera(&self.camera, SIZE[0] as f32 / SIZE[1] as f32);
         let right = 2.0 * (x as f32 + 0.5) / SIZE[0] as f32 - 1.0;
@@ -144,7 +144,7 @@ impl Stage {
         }
     }
 
-    /// Fails unless volumes, joined or not and counted either way, decide as rays do.
+    /// Fails if volumes, joined or not and counted in either way, decide otherwise than rays.
     #[track_caller]
     pub fn assert_volumes_are_exact(&self) {
         let Some(gpu) = gpu() else { return };
@@ -175,7 +175,7 @@ impl Shot {
         self.compare(gpu, |comparison, scene| comparison.decisions(gpu, scene, settings).expect("decisions"))
     }
 
-    /// What the stencil counts for the first light sample.
+    /// Returns the stencil after the shadows of the first light sample.
     pub fn stencil(&self, gpu: &Gpu, settings: &ShadowSettings) -> Vec<u8> {
         self.compare(gpu, |comparison, scene| comparison.stencil(gpu, scene, settings, 0).expect("a stencil"))
     }
@@ -184,13 +184,13 @@ impl Shot {
         let size = self.size;
         let view = &View::from_camera(&self.camera, size[0] as f32 / size[1] as f32);
         let scene = ComparedScene { scene: &self.buffers, shadows: &self.shadows, view, size };
-        // Passes are made once: a driver that draws on the CPU compiles them, and that takes longer than a test.
+        // Passes are created once, because a software driver takes longer to compile them than a test runs.
         static COMPARISON: OnceLock<Mutex<ShadowComparison>> = OnceLock::new();
         let comparison = COMPARISON.get_or_init(|| Mutex::new(ShadowComparison::new(gpu)));
         of(&mut comparison.lock().unwrap_or_else(PoisonError::into_inner), scene)
     }
 
-    /// Share of pixels that differ from the truth.
+    /// Returns the share of pixels that differ from the ray-traced reference.
     pub fn fault(&self, gpu: &Gpu, settings: &ShadowSettings) -> f32 {
         shadow_difference(&self.decisions(gpu, settings), &self.decisions(gpu, &raytraced())).share
     }
@@ -229,7 +229,7 @@ pub fn num_different(difference: &ShadowDifference) -> usize {
     difference.count.iter().filter(|&&count| count > 0).count()
 }
 
-/// Column, row and whether it is too bright, of the first pixels that differ.
+/// Returns the first pixels that differ: column, row, and whether the light is visible by mistake.
 pub fn places(difference: &ShadowDifference) -> Vec<(usize, usize, bool)> {
     let width = difference.size[0] as usize;
     let differing = (0..difference.count.len()).filter(|&pixel| difference.count[pixel] > 0);

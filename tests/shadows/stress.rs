@@ -1,4 +1,4 @@
-//! One scene with every case that is known to break shadows, from places that are known to break them.
+//! One scene with all known hard cases, seen from positions that are hard for shadows.
 
 use glam::{Mat4, Quat, Vec3};
 use hemicube::gpu::Gpu;
@@ -10,10 +10,10 @@ use super::stage::{Shot, Stage, at, num_different, paint, places, raytraced, set
 use crate::support::device::gpu;
 use crate::support::quads::{slot, texture};
 
-/// Small, as volumes fill the picture thousands of times.
+/// Small, because volumes cover the picture thousands of times.
 const SIZE: [u32; 2] = [128, 96];
 
-/// All bodies beside one another; the numbers are those of the cases.
+/// All bodies beside each other; the numbers are those of the cases.
 fn bodies() -> Stage {
     let mut stage = Stage::new();
     let turned = Mat4::from_quat(Quat::from_rotation_y(0.7));
@@ -38,7 +38,7 @@ fn bodies() -> Stage {
     stage.cube(at(-0.7, 0.5, 1.0) * Mat4::from_scale(Vec3::splat(0.6)), 0);
     stage.cube(at(-0.7, 0.5, 1.0) * Mat4::from_scale(Vec3::splat(0.6)), 0);
     stage.triangle([Vec3::new(-1.0, 1.0, 0.0), Vec3::new(-0.5, 1.0, 0.0), Vec3::new(0.0, 1.0, 0.0)], 0);
-    // 16: corners in the middle of an edge, in a plane where nothing is exact.
+    // 16: corners in the middle of an edge, in a plane with inexact coordinates.
     let (u, v, origin) = (Vec3::new(0.61, 0.17, 0.09), Vec3::new(-0.13, 0.21, -0.71), Vec3::new(0.3, 0.7, 1.4));
     stage.quad(origin, u, v);
     for i in 0..7 {
@@ -81,7 +81,7 @@ fn lights() -> Vec<(&'static str, LightKind)> {
 
 fn cameras() -> Vec<(&'static str, Camera)> {
     let looking = |eye: [f32; 3], target: [f32; 3]| Camera::looking_at("", eye.into(), target.into(), 0.9);
-    // Where the side of a volume, from a corner of the mirrored box away from the first light, runs through the eye.
+    // An eye in the side of the volume that begins at a corner of the mirrored box.
     let light = Vec3::new(0.7, 4.0, 0.4);
     let edge = Vec3::new(-0.4, 0.8, 1.3);
     let cut = edge + 0.3 * (edge - light).normalize();
@@ -95,7 +95,7 @@ fn cameras() -> Vec<(&'static str, Camera)> {
     ]
 }
 
-/// Each place with one light after the other.
+/// Each camera with one of the lights in turn.
 fn views(gpu: &Gpu) -> impl Iterator<Item = (String, Shot)> {
     cameras().into_iter().zip(lights().into_iter().cycle()).map(|((place, camera), (light, kind))| {
         let mut stage = bodies();
@@ -105,7 +105,7 @@ fn views(gpu: &Gpu) -> impl Iterator<Item = (String, Shot)> {
 }
 
 #[test]
-fn volumes_decide_as_rays_do_from_everywhere() {
+fn volumes_decide_as_rays_do_from_all_positions() {
     let Some(gpu) = gpu() else { return };
     for (view, shot) in views(gpu) {
         let truth = shot.decisions(gpu, &raytraced());
@@ -117,7 +117,7 @@ fn volumes_decide_as_rays_do_from_everywhere() {
 }
 
 #[test]
-fn joined_volumes_leave_the_stencil_that_each_triangle_alone_leaves() {
+fn joined_volumes_and_single_triangles_count_the_same() {
     let Some(gpu) = gpu() else { return };
     for (view, shot) in views(gpu) {
         let joined = settings(ShadowTechnique::VolumeDepthFail);

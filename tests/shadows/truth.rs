@@ -1,4 +1,4 @@
-//! The truth itself against closed forms: no raster and no tree, only where the line to the light goes.
+//! The ray-traced reference compared with closed forms: where the line to the light crosses a caster.
 
 use glam::{Vec2, Vec3};
 use hemicube::scene::LightKind;
@@ -6,7 +6,7 @@ use hemicube::scene::LightKind;
 use super::stage::{SIZE, Stage, raytraced};
 use crate::support::device::gpu;
 
-/// Where the line from `point` to the light at `light` crosses height `height`.
+/// Returns where the line from `point` to `light` crosses the height `height`.
 fn crossing(point: Vec3, light: Vec3, height: f32) -> Vec2 {
     let at = point + (light - point) * ((height - point.y) / (light.y - point.y));
     Vec2::new(at.x, at.z)
@@ -17,7 +17,7 @@ fn the_shadow_of_a_quad_is_its_image_from_the_light() {
     let Some(gpu) = gpu() else { return };
     let light = Vec3::new(0.7, 4.0, 0.4);
     let mut stage = Stage::new();
-    // Only where the floor is looked at past the quad: the camera is beside it.
+    // The camera sees the floor beside the quad.
     stage.quad(Vec3::new(-0.6, 1.5, 0.5), 1.2 * Vec3::X, -1.0 * Vec3::Z);
     stage.light(LightKind::Point { position: light });
     stage.seen(Vec3::new(0.0, 1.2, 7.0), Vec3::new(0.0, -1.0, 0.0));
@@ -55,7 +55,7 @@ fn the_shadow_of_a_round_body_is_that_of_its_triangles() {
         if !is_on_floor || distance(eye) < 1.0 {
             continue;
         }
-        // Triangles lie between the ball and one that is smaller by the height of an arc of 18 degrees.
+        // The triangles lie between the sphere and one that is smaller by the height of an arc of 18 degrees.
         let is_lit = found.samples[0].lit[(y * SIZE[0] + x) as usize];
         // A line of sight begins a ten-thousandth of a metre before the floor.
         if distance(light) > 1.001 {

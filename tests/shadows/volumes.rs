@@ -1,4 +1,4 @@
-//! Shadow volumes against rays. The numbers are those of the cases that are known to break shadows.
+//! Shadow volumes compared with rays. The numbers are those of known hard cases.
 
 use glam::{Mat4, Quat, Vec3};
 use hemicube::render::ShadowTechnique;
@@ -18,14 +18,14 @@ fn case_01_the_eye_is_inside_a_volume() {
     let Some(gpu) = gpu() else { return };
     let mut plain = settings(ShadowTechnique::VolumeDepthPass);
     plain.volumes.near_plane_cure = false;
-    assert!(stage.shot(gpu).fault(gpu, &plain) > 0.1, "the text book's fault is to be seen");
+    assert!(stage.shot(gpu).fault(gpu, &plain) > 0.1, "the textbook's fault is visible");
 }
 
 #[test]
 fn case_02_the_near_plane_cuts_a_volume() {
     let mut stage = Stage::new();
     stage.cube(at(0.0, 2.5, 0.0), 0);
-    // The side of the volume runs right through the eye.
+    // A side of the volume passes through the eye.
     let light = Vec3::new(0.7, 4.0, 0.4);
     let edge = Vec3::new(-0.5, 3.0, 0.1);
     let eye = edge + 0.9 * (edge - light);
@@ -62,7 +62,7 @@ fn case_05_the_light_is_in_a_closed_room() {
 #[test]
 fn case_06_the_light_is_inside_a_caster() {
     let mut stage = Stage::new();
-    // It is open to one side.
+    // The caster is open on one side.
     stage.cube(at(0.7, 4.0, 0.4) * Mat4::from_quat(Quat::from_rotation_z(2.2)), 1);
     stage.assert_volumes_are_exact();
 }
@@ -143,7 +143,7 @@ fn case_15_triangles_twice_and_without_area() {
     stage.triangle([Vec3::new(-2.0, 1.0, 0.0), Vec3::new(-1.0, 1.0, 0.0), Vec3::new(0.0, 1.0, 0.0)], 0);
     stage.triangle([Vec3::ONE; 3], 0);
     stage.assert_volumes_are_exact();
-    // What lies twice in one place is lit once.
+    // Two surfaces in the same place are lit once.
     let Some(gpu) = gpu() else { return };
     let once = |stage: &Stage| stage.shot(gpu).picture(gpu, &settings(ShadowTechnique::None), 1).radiance;
     let mut single = Stage::new();

@@ -1,4 +1,5 @@
-// Cut-out shadow pass: keeps the visible points from which the line to the light meets a solid place of a caster with holes.
+// Cut-out shadow pass: keeps the visible points from which the line to the light meets a solid place of a caster with
+// holes.
 
 struct CutoutCorner {
     // Metres.

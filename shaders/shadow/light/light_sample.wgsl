@@ -1,5 +1,5 @@
-// A light sample and its unshadowed irradiance. The uniform is written by src/render/shadow/light/uniforms.rs; the formulas are
-// those of src/render/shadow/light/sample.rs.
+// A light sample and its unshadowed irradiance. The uniform is written by src/render/shadow/light/uniforms.rs; the
+// formulas are those of src/render/shadow/light/sample.rs.
 
 // Light at a lower cosine is taken for none, so that no decision about it is compared.
 const GRAZING_COSINE: f32 = 1e-4;
@@ -13,7 +13,8 @@ const IS_SURFACE: u32 = 2u;
 const HAS_CONE: u32 = 4u;
 // glTF `range` is given.
 const HAS_RANGE: u32 = 8u;
-// The origin of light space is that of the world and not the light, because differences between pixels would be rounded away.
+// The origin of light space is that of the world and not the light, because differences between pixels would be
+// rounded away.
 const IS_FAR: u32 = 16u;
 
 struct LightSample {
@@ -74,8 +75,8 @@ fn arrival(kind: u32, from_light: vec3f) -> Arrival {
     return Arrival(to_light, inverse_distance);
 }
 
-// Returns the unshadowed irradiance, scaled by pre-exposure: E = I cos / r^2. `kind` is the light's, or a constant if it is known
-// when the pipeline is created; the compiler then removes the loads of what the light does not have.
+// Returns the unshadowed irradiance, scaled by pre-exposure: E = I cos / r^2. `kind` is the light's, or a constant if
+// it is known when the pipeline is created; the compiler then removes the loads of what the light does not have.
 fn irradiance(light: LightSample, kind: u32, arrival: Arrival, normal: vec3f) -> vec3f {
     let cosine = dot(normal, arrival.to_light);
     let share = cosine * emitted_share(light, kind, arrival.to_light) * falloff(light, kind, arrival.inverse_distance);

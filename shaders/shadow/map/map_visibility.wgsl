@@ -10,5 +10,5 @@ override IS_CUBE: bool = false;
 
 fn visibility(arrival: Arrival, at: Receiver) -> f32 {
     let kind = light.kind | select(0u, HAS_CUBE, IS_CUBE);
-    return seen_share(true, kind, arrival, shadow_map, map_depth, block_planes, map_sampler, at);
+    return visible_share(true, kind, arrival, shadow_map, map_depth, block_planes, map_sampler, at);
 }

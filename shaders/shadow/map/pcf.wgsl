@@ -1,9 +1,9 @@
 // Lookup of a shadow map with percentage-closer filtering (Reeves, Salesin and Cook 1987).
 //
-// The lit share of a point is the mean of the comparisons of its depth with the texels round it, not the comparison with a
-// mean depth. Over a filter of several texels a slanted surface would shadow itself; so each texel is compared with the depth
-// of the receiver's plane in the middle of that texel (receiver plane depth bias, Isidoro 2006, "Shadow mapping: GPU-based
-// tips and techniques"):
+// The lit share of a point is the mean of the comparisons of its depth with the texels round it, not the comparison
+// with a mean depth. Over a filter of several texels a slanted surface would shadow itself; so each texel is compared
+// with the depth of the receiver's plane in the middle of that texel (receiver plane depth bias, Isidoro 2006,
+// "Shadow mapping: GPU-based tips and techniques"):
 //
 //     lit = mean over texels (i, j) of  [ depth + dx fall.x + dy fall.y + bias >= stored(i, j) ]
 //
@@ -19,7 +19,7 @@ override PCF_RADIUS: i32 = 1;
 override HAS_NORMAL_OFFSET: bool = true;
 
 // Returns the share of a light sample that reaches a point according to its map. False for `receives` saves the lookup.
-fn seen_share(
+fn visible_share(
     receives: bool,
     kind: u32,
     arrival: Arrival,
@@ -37,7 +37,7 @@ fn seen_share(
     let faces_light = dot(at.facet, arrival.to_light) > 0.0;
     let matters = receives && faces_light;
     let point = in_map(kind, shadow_map, from_light, at.facet);
-    return select(0.0, lit_share(matters, shadow_map, map, block_planes, gathered, point), matters);
+    return select(0.0, pcf(matters, shadow_map, map, block_planes, gathered, point), matters);
 }
 
 // Returns the shift along the normal: larger for light at a grazing angle.
@@ -76,9 +76,10 @@ fn in_map(kind: u32, shadow_map: ShadowMap, from_light: vec3f, facet: vec3f) -> 
     return MapPoint(layer, texel, depth, vec2f(slope, -slope) * normal.xy);
 }
 
-// The PCF loop: returns the mean of the comparisons over the texels round a point. In each row the first and the last texel
-// are weighted by the share that the filter covers of them, so that shadows move smoothly. One `textureGather` reads 2 x 2.
-fn lit_share(
+// The PCF loop: returns the mean of the comparisons over the texels round a point. In each row the first and the last
+// texel are weighted by the share that the filter covers of them, so that shadows move smoothly. One `textureGather`
+// reads 2 x 2.
+fn pcf(
     matters: bool,
     shadow_map: ShadowMap,
     map: texture_depth_2d_array,

@@ -1,8 +1,8 @@
 // Projection of a shadow map for the passes that read it. Written by src/render/shadow/map/projection.rs.
 
 struct ShadowMap {
-    // Texel of a point = origin + scale x (right, down), and for a perspective map x 1 / ahead. Coordinates are those of light
-    // space, metres; the centres of texels are whole numbers.
+    // Texel of a point = origin + scale x (right, down), and for a perspective map x 1 / ahead. Coordinates are those
+    // of light space, metres; the centres of texels are whole numbers.
     origin: vec2f,
     scale: f32,
     // Depth = depth_scale / ahead, or depth_offset + depth_scale x ahead for a directional light.

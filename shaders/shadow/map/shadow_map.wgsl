@@ -1,4 +1,4 @@
-// Shadow map pass: draws the depth of the casters as the light sees them (Williams 1978).
+// Shadow map pass: draws the depth of the casters, seen from the light (Williams 1978).
 
 struct MapFace {
     projection_from_world: mat4x4f,

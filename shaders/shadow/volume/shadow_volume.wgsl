@@ -1,8 +1,8 @@
 // Shadow volume pass: draws the volumes that the stencil counts.
 //
-// A corner v is drawn where it is, or moved away from the light (L, w) to infinity: (v w - L, 0). The reversed infinite
-// projection maps w = 0 to depth 0 exactly, so that nothing is clipped by a far plane and z-fail has its caps at infinity
-// (Everitt and Kilgard 2002).
+// A corner v is drawn where it is, or moved away from the light (L, w) to infinity: (v w - L, 0). The reversed
+// infinite projection maps w = 0 to depth 0 exactly, so that nothing is clipped by a far plane and z-fail has its
+// caps at infinity (Everitt and Kilgard 2002).
 
 const INFINITELY_FAR: f32 = 1.0;
 const SHORTEST: f32 = 1e-30;

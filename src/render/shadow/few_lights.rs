@@ -16,8 +16,8 @@ use crate::gpu::Gpu;
 /// `MAX_LIGHTS` of shaders/surface/direct_few.wgsl.
 const MAX_LIGHTS: usize = 4;
 
-/// What the light samples are like. The surface pass has one pipeline for each, because these are constants of its shader:
-/// software drivers execute both sides of a branch.
+/// What the light samples are like. The surface pass has one pipeline for each, because these are constants of its
+/// shader: software drivers execute both sides of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LightKinds {
     num_lights: usize,
@@ -63,8 +63,8 @@ impl FewLightsPass {
         Self { maps: ShadowMapPass::new(gpu), layout: layout(gpu) }
     }
 
-    /// Binds the light samples of a picture, and draws their maps unless they are kept. Returns `None` if the surface pass
-    /// cannot add them: for other techniques, for more samples, and for a sum over several pictures.
+    /// Binds the light samples of a picture, and draws their maps unless they are kept. Returns `None` if the surface
+    /// pass cannot add them: for other techniques, for more samples, and for a sum over several pictures.
     pub fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,

@@ -8,8 +8,9 @@ use crate::gpu::Gpu;
 use crate::scene::Scene;
 
 impl ShadowScene {
-    /// Finds the casters of a scene whose triangles have been uploaded as [`SceneBuffers`](crate::render::scene::SceneBuffers),
-    /// and uploads those with holes. Other data is made by the first technique that needs it.
+    /// Finds the casters of a scene whose triangles have been uploaded as
+    /// [`SceneBuffers`](crate::render::scene::SceneBuffers), and uploads those with holes. Other data is made by the
+    /// first technique that needs it.
     #[must_use]
     pub fn new(gpu: &Gpu, scene: Arc<Scene>) -> Self {
         let shadows = Self::with_casters(scene);

@@ -1,7 +1,7 @@
 //! The difference of two techniques: in how many pixels they decide differently whether a light is visible.
 //!
-//! Edges of shadows move by less than a pixel between techniques, which is no fault. So only decisions that are more than one
-//! pixel away from an edge of the reference's shadow are compared.
+//! Edges of shadows move by less than a pixel between techniques, which is no fault. So only decisions that are more
+//! than one pixel away from an edge of the reference's shadow are compared.
 
 use glam::Vec3;
 
@@ -59,8 +59,8 @@ pub fn shadow_difference(decisions: &Decisions, reference: &Decisions) -> Shadow
 }
 
 impl ShadowDifference {
-    /// Draws the difference over the shadows of the reference: grey is the share of visible lights, red is too much light, blue
-    /// too little.
+    /// Draws the difference over the shadows of the reference: grey is the share of visible lights, red is too much
+    /// light, blue too little.
     #[must_use]
     pub fn picture(&self, reference: &Decisions) -> Vec<Vec3> {
         let num_samples = reference.samples.len().max(1) as f32;

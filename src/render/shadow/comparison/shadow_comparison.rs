@@ -39,8 +39,8 @@ impl ShadowComparison {
         Self { light: RealTimeLight::new(gpu, &layout, 1), layout }
     }
 
-    /// Compares two techniques. Returns their difference and the decisions of the reference: the ray-traced technique if it
-    /// is one of the two, else `b`.
+    /// Compares two techniques. Returns their difference and the decisions of the reference: the ray-traced technique
+    /// if it is one of the two, else `b`.
     ///
     /// # Errors
     /// Returns an error if the device was lost.

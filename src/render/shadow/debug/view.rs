@@ -7,7 +7,7 @@ pub enum DebugView {
     StencilCounts,
     /// Sides of the shadow volumes as translucent hulls.
     Volumes,
-    /// Outlines of the casters as the light sees them.
+    /// Outlines of the casters, seen from the light.
     Silhouettes,
     /// Depth in the shadow map: near is bright, empty texels are blue.
     Map,
@@ -47,7 +47,7 @@ impl DebugView {
             view: DebugView::Silhouettes,
             name: "silhouettes",
             title: "Silhouettes",
-            hint: "Outlines of the casters as the light sees them",
+            hint: "Outlines of the casters, seen from the light",
         },
         DebugViewInfo {
             view: DebugView::Map,

@@ -38,8 +38,8 @@ pub fn num_batches(per_lamp: u32) -> u32 {
 
 /// Selects the samples of one batch from `all` samples of a scene, [`MOST_POINTS`] a lamp.
 ///
-/// They are as strong as all samples together, so that the mean over all batches is the light of all samples. Batches come
-/// in van der Corput order, so that the points of the first few are spread evenly over a lamp.
+/// They are as strong as all samples together, so that the mean over all batches is the light of all samples. Batches
+/// come in van der Corput order, so that the points of the first few are spread evenly over a lamp.
 #[must_use]
 pub fn batch_of_samples(all: &[LightSample], per_lamp: u32, number: u32) -> Vec<LightSample> {
     let count = num_batches(per_lamp);

@@ -10,7 +10,8 @@ use crate::base::sampling::triangle_from_square;
 use crate::base::triangle::interpolate;
 use crate::scene::{Light, Scene, area_of, normal_of};
 
-/// Step of the second coordinate from sample to sample: multiples of the golden ratio spread any number of points evenly.
+/// Step of the second coordinate from sample to sample: multiples of the golden ratio spread any number of points
+/// evenly.
 pub const GOLDEN: f32 = 0.618_034;
 /// Size of the cells that lamps are split into, as a share of the scene's extent; the same as in the bake.
 const CELL_SHARE: f32 = 0.1;

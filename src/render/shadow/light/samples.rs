@@ -1,8 +1,9 @@
 //! Light samples: the lights of a scene as points and directions, each with one hard shadow.
 //!
-//! A punctual light is one sample, or many on a small sphere round its position. An emissive surface of radiance L and area
-//! A becomes N points, stratified over its area ([`emitters`](super::emitters)). Each has the intensity L A / N times the
-//! cosine to the surface's normal, so that their sum tends to the irradiance that the bake computes in closed form:
+//! A punctual light is one sample, or many on a small sphere round its position. An emissive surface of radiance L
+//! and area A becomes N points, stratified over its area ([`emitters`](super::emitters)). Each has the intensity L A
+//! / N times the cosine to the surface's normal, so that their sum tends to the irradiance that the bake computes in
+//! closed form:
 //!
 //! ```text
 //! E = sum over N samples of  L (A / N) cos(emitted) cos(received) / r^2
@@ -17,8 +18,8 @@ use super::sample::LightSample;
 use crate::render::shadow::shared::scene::{SceneData, ShadowScene};
 use crate::scene::{Light, LightKind, Scene};
 
-/// Returns the light samples of a scene: `per_lamp` for each emissive surface. A punctual light has as many too if `radius`
-/// (metres) is more than 0, else one; a directional light always has one.
+/// Returns the light samples of a scene: `per_lamp` for each emissive surface. A punctual light has as many too if
+/// `radius` (metres) is more than 0, else one; a directional light always has one.
 #[must_use]
 pub fn light_samples(scene: &Scene, per_lamp: u32, radius: f32) -> Vec<LightSample> {
     let mut samples = Vec::new();

@@ -20,7 +20,8 @@ pub fn axes(sample: &LightSample) -> Mat3 {
     Mat3::from_cols(right, up, -ahead)
 }
 
-/// Returns the transform from the world to light space, metres from the light; for a directional light, from the origin.
+/// Returns the transform from the world to light space, metres from the light; for a directional light, from the
+/// origin.
 pub fn light_from_world(sample: &LightSample) -> Mat4 {
     let position = sample.position();
     Mat4::from_mat3(axes(sample).transpose()) * Mat4::from_translation(-position.w * position.truncate())

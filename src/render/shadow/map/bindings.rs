@@ -7,7 +7,8 @@ use crate::render::shadow::shared::pipeline::{PipelineRecipe, nearest};
 
 /// Format of all shadow maps.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Format of block planes: depth at texel (0, 0), change per texel to the right and downwards, and 1 if there is a plane.
+/// Format of block planes: depth at texel (0, 0), change per texel to the right and downwards, and 1 if there is a
+/// plane.
 pub const BLOCK_PLANES_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// Texels across a block: `BLOCK` of shaders/shadow/map/projection.wgsl.

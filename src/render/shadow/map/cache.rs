@@ -10,7 +10,8 @@ use crate::gpu::Gpu;
 use crate::render::scene::SceneBuffers;
 use crate::render::shadow::shared::scene::SceneData;
 
-/// Most texels that are kept: 256 MiB, sixteen faces of the default resolution, and a sixteenth of that for block planes.
+/// Most texels that are kept: 256 MiB, sixteen faces of the default resolution, and a sixteenth of that for block
+/// planes.
 const MAX_TEXELS: usize = 1 << 26;
 
 /// A map that no picture has used for so long is dropped.
@@ -88,8 +89,8 @@ impl SceneData for MapCache {
 impl Maps {
     /// Returns the map with this content, and whether it has yet to be drawn.
     ///
-    /// If there is no room, the map that was used *last* is dropped: each picture uses the maps of all lights in turn, so
-    /// the one that was used last will be needed again last (Belady's rule for a cycle).
+    /// If there is no room, the map that was used *last* is dropped: each picture uses the maps of all lights in
+    /// turn, so the one that was used last will be needed again last (Belady's rule for a cycle).
     pub fn get(&mut self, gpu: &Gpu, content: MapContent) -> (&Map, bool) {
         let found = self.maps.iter().position(|map| map.content == content);
         let map = match found {

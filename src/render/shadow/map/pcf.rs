@@ -1,8 +1,8 @@
-//! Percentage-closer filtering: direct light that looks its shadow up in a map.
+//! Percentage-closer filtering: direct light with its shadow looked up in a map.
 //!
-//! The share of a light that reaches a point is the mean of depth comparisons over the texels round it, not the comparison
-//! with a mean depth (Reeves, Salesin and Cook 1987, "Rendering antialiased shadows with depth maps"). The loop is in
-//! shaders/shadow/map/pcf.wgsl.
+//! The share of a light that reaches a point is the mean of depth comparisons over the texels round it, not the
+//! comparison with a mean depth (Reeves, Salesin and Cook 1987, "Rendering antialiased shadows with depth maps"). The
+//! loop is in shaders/shadow/map/pcf.wgsl.
 
 use std::collections::HashMap;
 
@@ -11,7 +11,7 @@ use crate::gpu::shader::{Shader, shader};
 use crate::render::shadow::light::direct_light::{DirectLightPass, LIGHT_UNSHADOWED};
 use crate::render::shadow::light::pass_setup::PassSetup;
 
-/// Direct light where the shadow map sees the point.
+/// Direct light where the shadow map shows no caster before the point.
 pub const DIRECT_LIGHT_PCF: Shader = shader!(
     "direct light, shadow map",
     "shared/frame.wgsl",

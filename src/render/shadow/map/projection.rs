@@ -1,9 +1,9 @@
 //! Projections of shadow maps.
 //!
-//! A spot light has one perspective map, a point light the six faces of a cube, and a directional light an orthographic map
-//! that is fitted to the scene and snapped to whole texels. A face of a cube is a few texels wider than 90 degrees, so that
-//! filtering meets no seam. Depth is reversed as in pictures: near / distance for a perspective map, which is 1 at the near
-//! plane and 0 infinitely far.
+//! A spot light has one perspective map, a point light the six faces of a cube, and a directional light an
+//! orthographic map that is fitted to the scene and snapped to whole texels. A face of a cube is a few texels wider
+//! than 90 degrees, so that filtering meets no seam. Depth is reversed as in pictures: near / distance for a
+//! perspective map, which is 1 at the near plane and 0 infinitely far.
 
 use bytemuck::{Pod, Zeroable};
 use glam::camera::rh::proj::directx;

@@ -7,8 +7,8 @@ pub struct MapSettings {
     pub resolution: u32,
     /// Texels in each direction over which the edge of a shadow is filtered (PCF).
     pub pcf_radius: u32,
-    /// Shift of a point along its normal, texels. It avoids acne and lets light leak through thin walls; depths that are
-    /// compared with the plane of the receiver need none.
+    /// Shift of a point along its normal, texels. It avoids acne and lets light leak through thin walls; depths that
+    /// are compared with the plane of the receiver need none.
     pub normal_offset: f32,
     /// Shift of a point towards the light, in units of the depth that its surface falls from texel to texel. Too little
     /// shows acne, too much detaches shadows from their casters.

@@ -1,4 +1,4 @@
-//! Shadow map pass: draws the depth of the casters as a light sees them (Williams 1978).
+//! Shadow map pass: draws the depth of the casters, seen from a light (Williams 1978).
 
 use glam::Mat4;
 

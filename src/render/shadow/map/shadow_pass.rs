@@ -1,4 +1,5 @@
-//! The shadow map technique: draws the map of each light sample, then its light where the map sees the point.
+//! The shadow map technique: draws the map of each light sample, then adds its light where the map shows no caster
+//! before the point.
 
 use super::pcf::{MapKind, PcfPasses};
 use super::shadow_map::ShadowMapPass;

@@ -1,7 +1,8 @@
 //! Planar shadow pass: marks in the stencil which points are on a receiver, and which of them are in shadow.
 //!
-//! The stencil holds the number of a point's receiver in its upper five bits and counts shadows in the lower three (see
-//! [`stencil`](crate::render::shadow::shared::stencil)). Each of the text book's faults has a cure in [`PlanarSettings`].
+//! The stencil holds the number of a point's receiver in its upper five bits and counts shadows in the lower three
+//! (see [`stencil`](crate::render::shadow::shared::stencil)). Each of the text book's faults has a cure in
+//! [`PlanarSettings`].
 
 use glam::Vec4;
 use wgpu::util::DeviceExt;
@@ -67,7 +68,8 @@ impl PlanarShadowPass {
         }
     }
 
-    /// Marks the shadows of a light at a homogeneous position, in a pass with cleared stencil and with bind group 0 set.
+    /// Marks the shadows of a light at a homogeneous position, in a pass with cleared stencil and with bind group 0
+    /// set.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, frame: FrameContext<'_>, light: Vec4) {
         let Some((settings, shadow)) = &self.shadow else { return };
         let clearance = CLEARANCE * frame.shadows.bounds().extent();

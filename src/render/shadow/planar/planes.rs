@@ -10,8 +10,8 @@ pub const SAME_NORMAL: f32 = 1e-4;
 /// Least distance of two parallel planes, as a share of the scene's extent.
 pub const SAME_DISTANCE: f32 = 1e-5;
 
-/// Returns the plane of a triangle as unit normal n and distance w: its points p satisfy n . p + w = 0. Returns `None` if
-/// the triangle has no area.
+/// Returns the plane of a triangle as unit normal n and distance w: its points p satisfy n . p + w = 0. Returns
+/// `None` if the triangle has no area.
 #[must_use]
 pub fn plane_of(scene: &Scene, id: TriangleId) -> Option<Vec4> {
     let corners = scene.corners(id);

@@ -23,8 +23,8 @@ pub struct PlanarSettings {
     pub is_free_of_depth: bool,
     /// Points under several casters are darkened once. If off, they are darkened twice.
     pub darkens_once: bool,
-    /// Casters are clipped at the plane and at the height of the light. If off, those below the plane or above the light throw
-    /// anti-shadows.
+    /// Casters are clipped at the plane and at the height of the light. If off, those below the plane or above the
+    /// light throw anti-shadows.
     pub clips_casters: bool,
 }
 

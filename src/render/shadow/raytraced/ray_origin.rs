@@ -6,8 +6,8 @@ use super::pixel_rays::PixelRays;
 use super::visible_points::VisiblePoint;
 use crate::render::shadow::shared::exact_rays::{ExactRays, Line};
 
-/// Distance of a ray's origin from its surface, as a share of the way to the eye: surfaces in the same place as the visible
-/// one do not shadow it.
+/// Distance of a ray's origin from its surface, as a share of the way to the eye: surfaces in the same place as the
+/// visible one do not shadow it.
 const TOWARDS_EYE: f64 = 1e-5;
 /// Upper bound of the distance by which the raster moves corners, pixels.
 const SNAP: f64 = 1.0 / 128.0;
@@ -33,8 +33,8 @@ impl RayOrigin {
     pub fn new(rays: &ExactRays, lines: &PixelRays, pixel: usize, visible: VisiblePoint) -> Self {
         let middle = lines.through(pixel, DVec2::ZERO);
         let hit = SurfaceHit::new(rays, lines, middle, &visible).filter(SurfaceHit::is_certain).or_else(|| {
-            // At the edge of a triangle the raster may show another triangle than the line through the middle meets, because
-            // it snaps corners to a fraction of a pixel.
+            // At the edge of a triangle the raster may show another triangle than the line through the middle meets,
+            // because it snaps corners to a fraction of a pixel.
             let beside = CORNERS.map(|corner| lines.through(pixel, SNAP * corner));
             let hits =
                 [middle].into_iter().chain(beside).filter_map(|line| SurfaceHit::new(rays, lines, line, &visible));

@@ -39,8 +39,9 @@ impl RaytracedLight {
         self.targets = None;
     }
 
-    /// Returns a texture of irradiance times pre-exposure, whose fourth channel counts the visible samples. If `adds_to_last`,
-    /// it is the sum with the last picture. It is black if the device was lost, which the next read-back reports.
+    /// Returns a texture of irradiance times pre-exposure, whose fourth channel counts the visible samples. If
+    /// `adds_to_last`, it is the sum with the last picture. It is black if the device was lost, which the next
+    /// read-back reports.
     pub fn draw(&mut self, frame: FrameContext<'_>, samples: &[LightSample], adds_to_last: bool) -> wgpu::TextureView {
         let origins = self.origins(frame).unwrap_or_default();
         let irradiance_at = |origin: &RayOrigin| {
@@ -103,8 +104,8 @@ fn received(frame: FrameContext<'_>, visible: &VisiblePoint, sample: &LightSampl
     sample.irradiance(visible.point, visible.normal) * frame.render_settings.group_weight(sample.light.group)
 }
 
-/// Whether nothing solid stands between a visible point and a light sample, and its triangle shows the light the same side
-/// as the eye.
+/// Whether nothing solid stands between a visible point and a light sample, and its triangle shows the light the same
+/// side as the eye.
 fn is_lit(frame: FrameContext<'_>, origin: &RayOrigin, sample: &LightSample) -> bool {
     let light = sample.position().as_dvec4();
     let eye = frame.view.eye().as_dvec4();

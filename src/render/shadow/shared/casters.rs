@@ -1,10 +1,10 @@
 //! Casters: the opaque triangles of a scene, joined at their edges.
 //!
-//! Files split vertices at seams, leave meshes open, let three faces share an edge, turn some faces over and end edges in
-//! the middle of longer ones (T-junctions). A shadow volume is closed all the same if each edge sums the triangles on it
-//! with the sign of their direction (Kim, Kim and Turk 2008, "Exact shadow volumes"; see `volume/hull.rs`). So corners are
-//! welded by position, and an edge is cut where other corners lie on it. Casters with holes and casters that blend are not
-//! here but in `cutout/`.
+//! Files split vertices at seams, leave meshes open, let three faces share an edge, turn some faces over and end
+//! edges in the middle of longer ones (T-junctions). A shadow volume is closed all the same if each edge sums the
+//! triangles on it with the sign of their direction (Kim, Kim and Turk 2008, "A shadow-volume algorithm for opaque
+//! and transparent nonmanifold casters"; see `volume/hull.rs`). So corners are welded by position, and an edge is cut
+//! where other corners lie on it. Casters with holes and casters that blend are not here but in `cutout/`.
 
 use std::collections::HashMap;
 

@@ -1,9 +1,9 @@
 //! Lines of sight in double precision, watertight where triangles meet.
 //!
-//! The side on which a line passes an edge is computed in the same order of operations for both triangles at the edge, so
-//! a line along the edge meets at least one of them (Woop, Benthin and Wald 2013, "Watertight Ray/Triangle Intersection",
-//! there in single precision). These rays are the reference for all techniques: they are slower than `trace::Tracer` and
-//! share no code with it.
+//! The side on which a line passes an edge is computed in the same order of operations for both triangles at the
+//! edge, so a line along the edge meets at least one of them (Woop, Benthin and Wald 2013, "Watertight Ray/Triangle
+//! Intersection", there in single precision). These rays are the reference for all techniques: they are slower than
+//! `trace::Tracer` and share no code with it.
 
 use std::sync::Arc;
 

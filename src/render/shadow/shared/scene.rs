@@ -1,4 +1,4 @@
-//! A scene as shadows see it: its casters, lines of sight through it, and what techniques keep of it.
+//! What shadows need of a scene: its casters, lines of sight through it, and data that techniques keep with it.
 
 use std::any::{Any, TypeId};
 use std::collections::HashMap;
@@ -15,7 +15,7 @@ pub trait SceneData: Any + Send + Sync {
     fn drop_unused(&self) {}
 }
 
-/// A scene as shadows see it.
+/// A scene with its casters, and data that techniques keep with it.
 pub struct ShadowScene {
     scene: Arc<Scene>,
     bounds: Bounds,

@@ -14,7 +14,7 @@ pub const SHADOW_BITS: u32 = 0x07;
 pub const RECEIVER_BITS: u32 = 0xf8;
 /// Stencil value of receiver number 1.
 pub const FIRST_RECEIVER: u32 = 0x08;
-/// Largest number of receivers that [`RECEIVER_BITS`] can tell apart.
+/// Largest number of receivers that [`RECEIVER_BITS`] can distinguish.
 pub const MAX_RECEIVERS: usize = 31;
 
 /// A stencil state that is the same for both faces of a triangle.

@@ -1,8 +1,9 @@
 //! The triangles of shadow volumes: sides at the outline of the casters, and caps.
 //!
 //! A side at an edge (a, b) is the quadrilateral a, b, b', a', where v' is v moved away from the light L to infinity:
-//! v' = (v w - L, 0) for a homogeneous light (L, w). How often and in which direction each edge has a side is its signed
-//! count (see [`silhouette`](super::silhouette)). For depth-fail, caps close each volume at its triangle and at infinity.
+//! v' = (v w - L, 0) for a homogeneous light (L, w). How often and in which direction each edge has a side is its
+//! signed count (see [`silhouette`](super::silhouette)). For depth-fail, caps close each volume at its triangle and
+//! at infinity.
 
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
@@ -22,8 +23,8 @@ pub enum Counting {
     DepthFail,
 }
 
-/// The shadow volumes of one light, as triangles. An index is 2 v for corner v where it is, and 2 v + 1 for corner v moved
-/// away from the light to infinity.
+/// The shadow volumes of one light, as triangles. An index is 2 v for corner v where it is, and 2 v + 1 for corner v
+/// moved away from the light to infinity.
 ///
 /// Sides list the corners of their edge in the same order for both windings, and caps list them in the order of their
 /// triangle, so that triangles that coincide have the same depth to the last bit.
@@ -77,10 +78,10 @@ pub fn hull_triangle_by_triangle(casters: &Casters, facing: &[i32], position: Ve
     hull
 }
 
-/// Returns the triangles at the terminator of smooth surfaces: a shading normal faces the light, the triangle itself does
-/// not. Those whose front is dark are counter-clockwise, those whose back is dark clockwise.
+/// Returns the triangles at the terminator of smooth surfaces: a shading normal faces the light, the triangle itself
+/// does not. Those whose front is dark are counter-clockwise, those whose back is dark clockwise.
 ///
-/// Sides of volumes run too close to these triangles for depths to tell them apart, so they are darkened explicitly.
+/// Sides of volumes run too close to these triangles to be distinguished by depth, so they are darkened explicitly.
 #[must_use]
 pub fn terminator(casters: &Casters, facing: &[i32], position: Vec4) -> Hull {
     let mut hull = Hull::default();

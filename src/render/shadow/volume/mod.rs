@@ -1,14 +1,14 @@
 //! Shadow volumes: the stencil counts in how many volumes each visible point is (Crow 1977; Heidmann 1991).
 //!
-//! A triangle throws a volume, bounded by the triangle, by the planes through the light and its edges, and by nothing at
-//! infinity. A point is in shadow if it is in a volume: if a path from the point to a place outside enters more volumes
-//! than it leaves. [`hull`] builds the volumes of all casters from signed edge counts (Kim, Kim and Turk 2008), and
-//! [`stencil`] holds the two ways to count them:
+//! A triangle throws a volume, bounded by the triangle, by the planes through the light and its edges, and by nothing
+//! at infinity. A point is in shadow if it is in a volume: if a path from the point to a place outside enters more
+//! volumes than it leaves. [`hull`] builds the volumes of all casters from signed edge counts (Kim, Kim and Turk
+//! 2008), and [`stencil`] holds the two ways to count them:
 //!
-//! * z-pass, here *depth-pass*: along the ray from the eye to the point. It needs no caps and fails if the near plane cuts a
-//!   volume; [`volumes`] has a cure.
-//! * z-fail, here *depth-fail*: along the ray from the point to infinity (Everitt and Kilgard 2002, "Practical and robust
-//!   stenciled shadow volumes"). It needs caps and a projection without a far plane, and is right everywhere.
+//! * z-pass, here *depth-pass*: along the ray from the eye to the point. It needs no caps and fails if the near plane
+//!   cuts a volume; [`volumes`] has a cure.
+//! * z-fail, here *depth-fail*: along the ray from the point to infinity (Everitt and Kilgard 2002, "Practical and
+//!   robust stenciled shadow volumes"). It needs caps and a projection without a far plane, and is right everywhere.
 
 pub mod hull;
 mod known_fault;

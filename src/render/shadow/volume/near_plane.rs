@@ -25,10 +25,11 @@ impl NearPlane {
         Self { centre, radius: centre.distance(at(1.0, 1.0)) }
     }
 
-    /// Whether the volume of a triangle may reach the near plane, from a light at a homogeneous position. Conservative: true
-    /// in doubt.
+    /// Whether the volume of a triangle may reach the near plane, from a light at a homogeneous position.
+    /// Conservative: true in doubt.
     ///
-    /// It does if the triangle meets the cone from the light to the near plane; a capsule round its axis bounds the cone.
+    /// It does if the triangle meets the cone from the light to the near plane; a capsule round its axis bounds the
+    /// cone.
     #[must_use]
     pub fn is_reached_by_volume(&self, corners: [Vec3; 3], light: Vec4) -> bool {
         let to_light = if light.w == 0.0 { light.truncate() * FAR_AWAY } else { light.truncate() - self.centre };

@@ -1,7 +1,8 @@
 //! Shadow volume pass: counts in the stencil the volumes that each visible point is in.
 //!
-//! The volumes of a light are kept from picture to picture while neither light nor casters move; the cure of z-pass depends
-//! on the view as well. An orthographic view has a far plane, which cuts volumes off as [`VolumeSettings::far_plane`] does.
+//! The volumes of a light are kept from picture to picture while neither light nor casters move; the cure of z-pass
+//! depends on the view as well. An orthographic view has a far plane, which cuts volumes off as
+//! [`VolumeSettings::far_plane`] does.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -57,7 +58,8 @@ struct HullBuffer {
     clockwise: Range<u32>,
 }
 
-/// Corners of the casters of a scene on the device: each as (v, 0) and as (v, 1), in the order of the indices of [`Hull`].
+/// Corners of the casters of a scene on the device: each as (v, 0) and as (v, 1), in the order of the indices of
+/// [`Hull`].
 struct CornerBuffer(wgpu::Buffer);
 
 impl SceneData for CornerBuffer {}

@@ -1,15 +1,15 @@
-//! Signed edge counts: which edges are the outline of the casters as a light sees them.
+//! Signed edge counts: which edges are the outline of the casters, seen from a light.
 //!
-//! Each triangle t is oriented so that it faces the light: f_t = +1 if its front does, -1 if its back does. An edge e sums
-//! over its triangles the direction d = +1 or -1 in which each runs along it (Kim, Kim and Turk 2008, "Exact shadow
-//! volumes"):
+//! Each triangle t is oriented so that it faces the light: f_t = +1 if its front does, -1 if its back does. An edge e
+//! sums over its triangles the direction d = +1 or -1 in which each runs along it (Kim, Kim and Turk 2008, "A
+//! shadow-volume algorithm for opaque and transparent nonmanifold casters"):
 //!
 //! ```text
 //! c_e = sum over the triangles t at e of  d_{t,e} f_t
 //! ```
 //!
-//! Within a surface two triangles cancel. At a silhouette they add up to +-2, at the border of an open mesh to +-1. The sign
-//! is the direction of the volume's side at this edge, and the absolute value how often it is drawn.
+//! Within a surface two triangles cancel. At a silhouette they add up to +-2, at the border of an open mesh to +-1.
+//! The sign is the direction of the volume's side at this edge, and the absolute value how often it is drawn.
 
 use glam::{DVec3, Vec3, Vec4};
 use rayon::prelude::*;
@@ -36,7 +36,7 @@ pub fn count(casters: &Casters, edge: &Edge, facing: &[i32]) -> i32 {
     sides.iter().map(|side| side.direction * facing[side.triangle as usize]).sum()
 }
 
-/// Returns the ends of all edges with a count that is not zero: the outline of the casters as the light sees them.
+/// Returns the ends of all edges with a count that is not zero: the outline of the casters, seen from the light.
 #[must_use]
 pub fn silhouette(casters: &Casters, facing: &[i32]) -> Vec<[u32; 2]> {
     casters.edges.iter().filter(|edge| count(casters, edge, facing) != 0).map(|edge| edge.ends).collect()

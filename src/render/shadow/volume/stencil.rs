@@ -1,15 +1,15 @@
 //! Stencil states of shadow volumes, z-pass and z-fail, and the pipelines that count with them.
 //!
-//! Let the count of a pixel be the number of volumes that its visible point is in. Walking from the eye to the point, each
-//! front face enters a volume and each back face leaves one, so z-pass counts faces in front of the point:
+//! Let the count of a pixel be the number of volumes that its visible point is in. Walking from the eye to the point,
+//! each front face enters a volume and each back face leaves one, so z-pass counts faces in front of the point:
 //!
 //! ```text
 //! z-pass:  depth test passes:  front +1, back -1       (Heidmann 1991)
 //! z-fail:  depth test fails:   back  +1, front -1      (Everitt and Kilgard 2002)
 //! ```
 //!
-//! z-fail walks from infinity to the point and counts faces behind it. Both operations wrap at 256, so that the order of
-//! faces does not matter; being in a multiple of 256 volumes counts as being in none.
+//! z-fail walks from infinity to the point and counts faces behind it. Both operations wrap at 256, so that the order
+//! of faces does not matter; being in a multiple of 256 volumes counts as being in none.
 
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
@@ -24,9 +24,9 @@ const SHADOW_VOLUME: Shader = shader!(
     "shadow/light/one_light.wgsl",
     "shadow/volume/shadow_volume.wgsl"
 );
-/// A side begins at the edge of its caster, where both are equally deep but for rounding, and a cap lies in its triangle:
-/// there the volume has to be behind the surface. The bias moves it away from the eye by its change of depth over a 128th of
-/// a pixel, which is more than rasterisation moves corners.
+/// A side begins at the edge of its caster, where both are equally deep but for rounding, and a cap lies in its
+/// triangle: there the volume has to be behind the surface. The bias moves it away from the eye by its change of
+/// depth over a 128th of a pixel, which is more than rasterisation moves corners.
 const DEEPER: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: -4, slope_scale: -1.0 / 128.0, clamp: 0.0 };
 
 /// Pipelines for counter-clockwise and clockwise triangles of a [`Hull`](super::hull::Hull).

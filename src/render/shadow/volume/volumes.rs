@@ -1,9 +1,9 @@
 //! The volumes of one light, each triangle counted in the way that is right for it.
 //!
-//! z-pass counts faces between eye and point, so it is wrong where the near plane is in a volume: the face through which the
-//! eye entered is cut away. The cure counts the few triangles whose volumes reach the near plane by z-fail and all others
-//! by z-pass: a count is a sum over triangles, and each summand may be counted either way (the idea of ZP+, Hornus et al.
-//! 2005, "ZP+: correct z-pass stencil shadows", which counts the near plane in a pass of its own).
+//! z-pass counts faces between eye and point, so it is wrong where the near plane is in a volume: the face through
+//! which the eye entered is cut away. The cure counts the few triangles whose volumes reach the near plane by z-fail
+//! and all others by z-pass: a count is a sum over triangles, and each summand may be counted either way (the idea of
+//! ZP+, Hornus et al. 2005, "ZP+: correct z-pass stencil shadows", which counts the near plane in a pass of its own).
 
 use glam::{DVec4, Vec3, Vec4};
 use rayon::prelude::*;
@@ -45,7 +45,7 @@ impl Viewpoint {
     }
 
     /// Whether a triangle is not culled.
-    fn sees(&self, casters: &Casters, triangle: &Caster) -> bool {
+    fn shows(&self, casters: &Casters, triangle: &Caster) -> bool {
         let [a, b, c] = casters.corners(triangle).map(Vec3::as_dvec3);
         let to_eye = self.position.truncate() - self.position.w * a;
         !self.culls_backs || !triangle.is_single_sided || (b - a).cross(c - a).dot(to_eye) > 0.0
@@ -84,7 +84,7 @@ fn cured(casters: &Casters, viewpoint: &Viewpoint, facing: &[i32], light: Vec4) 
     let mut depth_pass = hull(casters, &by_pass, light, Counting::DepthPass);
     // A cap coincides with its triangle, so it is in front of the visible point only if the triangle is invisible.
     for (triangle, &facing) in casters.triangles.iter().zip(&by_pass) {
-        if !viewpoint.sees(casters, triangle) {
+        if !viewpoint.shows(casters, triangle) {
             depth_pass.add_light_caps(casters, triangle, facing);
         }
     }
