@@ -117,10 +117,10 @@ pub fn upward_imports_in_rooms(imports: &Imports, rooms: &[Rooms<'_>]) -> Vec<St
 }
 
 /// Circles of files.
-pub fn file_circles(imports: &Imports) -> Vec<(Vec<String>, String)> {
+pub fn file_circles(imports: &Imports) -> Vec<String> {
     let mut used = imports.used.clone();
     used.retain(|file, _| !ENTRANCES.contains(&file.as_str()));
-    circles(&used).into_iter().map(|circle| (circle.clone(), describe(&circle, &used))).collect()
+    circles(&used).iter().map(|circle| describe(circle, &used)).collect()
 }
 
 /// Lines that name wgpu where it does not belong.
@@ -137,8 +137,8 @@ pub fn misplaced_wgpu(sources: &Sources) -> Vec<String> {
     found
 }
 
-/// Folders with too many code files beside each other, and their number; `files` are paths below the root of the project.
-pub fn crowded<'a>(files: impl IntoIterator<Item = &'a str>) -> Vec<(String, usize)> {
+/// Folders with too many code files beside each other; `files` are paths below the root of the project.
+pub fn crowded<'a>(files: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for file in files {
         let (folder, name) = file.rsplit_once('/').unwrap_or(("", file));
@@ -146,11 +146,8 @@ pub fn crowded<'a>(files: impl IntoIterator<Item = &'a str>) -> Vec<(String, usi
             *counts.entry(folder).or_default() += 1;
         }
     }
-    counts
-        .into_iter()
-        .filter(|&(_, count)| count > MOST_FILES)
-        .map(|(folder, count)| (folder.to_owned(), count))
-        .collect()
+    let crowds = counts.into_iter().filter(|&(_, count)| count > MOST_FILES);
+    crowds.map(|(folder, count)| format!("{folder} holds {count} code files beside each other")).collect()
 }
 
 /// Each (file, file that it uses, names that tie them).
