@@ -70,7 +70,7 @@ pub struct MeasureContext<'a> {
 /// Measures at points of a baked scene, in order.
 ///
 /// ```
-/// use glam::Vec3;
+/// use hemicube::glam::Vec3;
 /// use hemicube::bake::{BakeSettings, MeasureSettings, Method, Quality, bake, measure};
 /// use hemicube::raytrace::MeasuringPoint;
 /// use hemicube::scene::builtin;

@@ -16,7 +16,7 @@ use glam::Vec3;
 /// The part of the polygon below the horizon is clipped.
 ///
 /// ```
-/// use glam::Vec3;
+/// use hemicube::glam::Vec3;
 /// use hemicube::form_factor::point_to_polygon;
 ///
 /// let far = 1e4;

@@ -27,6 +27,7 @@ pub enum FormFactorError {
 ///
 /// ```
 /// use hemicube::form_factor::{FormFactorError, FormFactorSource, Row, Viewpoint, map_rows};
+/// use hemicube::glam::Vec3;
 ///
 /// /// Every view ends in the sky.
 /// struct EmptyScene;
@@ -48,7 +49,7 @@ pub enum FormFactorError {
 ///     }
 /// }
 ///
-/// let up = Viewpoint { position: glam::Vec3::ZERO, normal: glam::Vec3::Y, seed: 0 };
+/// let up = Viewpoint { position: Vec3::ZERO, normal: Vec3::Y, seed: 0 };
 /// let sky = map_rows(&mut EmptyScene, &[up], &|| true, |_, row| row.sky)?;
 /// assert_eq!(sky, [1.0]);
 /// # Ok::<(), FormFactorError>(())
