@@ -2,9 +2,12 @@
 //!
 //! A tile is a square grid with the corners of its triangle at (0, 0), (n, 0) and (0, n), so that corners of elements
 //! lie on texels and bilinear interpolation between them shows the same as interpolation on the elements. At the long
-//! side bilinear interpolation reads a texel beyond it, which is extrapolated from three texels: t(x, y) = t(x - 1, y)
-//! + t(x, y - 1) - t(x - 1, y - 1). Light is then linear between two texels of an edge, and equal on both sides of the
-//! edge. A margin of one texel surrounds each tile, because devices round weights.
+//! side bilinear interpolation reads a texel beyond it, which is extrapolated from three texels:
+//!
+//! t(x, y) = t(x - 1, y) + t(x, y - 1) - t(x - 1, y - 1)
+//!
+//! Light is then linear between two texels of an edge, and equal on both sides of the edge. A margin of one texel
+//! surrounds each tile, because devices round weights.
 //!
 //! Source: Bastos, Goslin, Zhang 1997, "Efficient rendering of radiosity using textures and bicubic reconstruction".
 

@@ -7,7 +7,8 @@
 //! * `trees`: the bisection trees of its triangles, one after the other, each in preorder, one character a node: `a` to
 //!   `p` is a regular tree of 2^0 to 2^15 triangles, all halved opposite their first corner; `0`, `1` or `2` is a
 //!   triangle halved opposite that corner, and the trees of its two halves follow. The triangles of the primitive are
-//!   the leaves, in this order.
+//!   the leaves, in this order. The corners of a triangle count in the order of the front; a back `[a, c, b]` counts as
+//!   `[a, b, c]`.
 //! * `back_of`: 1 if the triangles are the backs of those of the primitive before, one by one, with corners `[a, c, b]`
 //!   in the place of `[a, b, c]`; generally the number of primitives from the fronts to the backs.
 //!
