@@ -1,4 +1,4 @@
-//! Bind group 0: what one picture asks of every pass.
+//! Bind group 0: camera, exposure and weights of one picture, for every pass.
 
 use std::f32::consts::PI;
 
@@ -33,7 +33,7 @@ struct FrameUniform {
 impl FrameUniform {
     fn new(scene: &SceneBuffers, view: &View, settings: &RenderSettings) -> Self {
         let weight = |group: usize| settings.group_weight(GroupId::new(group)).extend(0.0);
-        // Light is added up batch by batch, and their mean is shown.
+        // The light of all batches so far is summed; the picture shows their mean.
         let num_batches =
             1 + settings.shadows.as_ref().and_then(|shadows| shadows.batch).map_or(0, |batch| batch.number);
         let live = settings.direct / (PI * num_batches as f32);
@@ -85,7 +85,7 @@ pub fn frame_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     })
 }
 
-/// Bind group 0 of one picture; a fresh one each time, so that several pictures can share a submission.
+/// Bind group 0 of one picture, with buffers of its own, so that several pictures can share a submission.
 pub fn frame_bind_group(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
@@ -120,7 +120,7 @@ mod tests {
         macro_rules! offsets {
             ($($field:ident),+) => { vec![$(offset_of!(FrameUniform, $field)),+, size_of::<FrameUniform>()] };
         }
-        // The shader leaves the gap to the compiler.
+        // The shader does not name the gap before `eye`.
         let written = offsets![
             projection_from_world,
             group_weights,

@@ -1,6 +1,6 @@
-//! Overlay: lines and tinted faces over a finished picture, hidden by what stands before them.
+//! Overlay: lines and tinted faces over a finished picture, hidden by the surfaces before them.
 //!
-//! It draws the scene's depth once more, one sample a pixel, so that a picture without marks costs nothing for them.
+//! It draws the depth of the scene again with one sample a pixel, so that pictures without marks cost nothing.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -14,7 +14,7 @@ use crate::render::scene::gpu_vertex::GpuVertex;
 use crate::render::targets::DEPTH_FORMAT;
 use crate::scene::AlphaMode;
 
-/// Lines and tinted faces over a picture.
+/// Shader of the overlay.
 pub(in crate::render) const OVERLAY: Shader =
     shader!("overlay", "shared/frame.wgsl", "shared/colour.wgsl", "overlay.wgsl");
 
@@ -24,7 +24,7 @@ pub(in crate::render) const OVERLAY: Shader =
 pub struct Mark {
     /// Metres, in world space.
     pub position: Vec3,
-    /// As displayed: sRGB with straight alpha.
+    /// Display colour: sRGB encoded with straight alpha.
     pub colour: [u8; 4],
 }
 
@@ -105,7 +105,7 @@ impl OverlayPass {
         let seen = scene.in_view(gpu, &view.cull_view(settings.cull_back));
         let mut pass = begin(encoder, target, &depth.0);
         pass.set_bind_group(0, &frame, &[]);
-        // What hides marks.
+        // Depth of the surfaces that hide marks.
         let (indices, batches) = seen.coarsest();
         if !batches.is_empty() {
             pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -167,7 +167,7 @@ fn begin<'e>(
 /// What a pipeline draws.
 #[derive(Clone, Copy)]
 enum Primitive {
-    /// The scene, into the depth alone.
+    /// The scene, into the depth only.
     Depth { cull_mode: Option<wgpu::Face> },
     /// Lines or triangles over the picture.
     Marks(wgpu::PrimitiveTopology),

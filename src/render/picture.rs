@@ -16,9 +16,9 @@ pub struct Picture {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
-    /// Linear radiance before exposure, premultiplied by the fourth channel, the share of the pixel that is covered.
+    /// Linear radiance before exposure, premultiplied by the fourth channel, which is the covered share of the pixel.
     pub radiance: Vec<[f32; 4]>,
-    /// RGBA bytes as displayed, sRGB.
+    /// RGBA bytes as displayed, sRGB encoded.
     pub display: Vec<u8>,
 }
 
@@ -32,10 +32,10 @@ pub enum FileKind {
 }
 
 impl FileKind {
-    /// The kind that a file name asks for.
+    /// The kind of a file, by the end of its name.
     ///
     /// # Errors
-    /// The name ends in neither `.png` nor `.exr`.
+    /// Returns an error if the name ends in neither `.png` nor `.exr`.
     pub fn of(path: &Path) -> Result<Self, RenderError> {
         let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
         match extension.as_deref() {
@@ -47,12 +47,12 @@ impl FileKind {
 }
 
 impl Picture {
-    /// Writes what is displayed as `.png`, or the linear radiance as `.exr`.
+    /// Writes the display colours as `.png`, or the linear radiance as `.exr`.
     ///
-    /// The file appears under its name only when it is whole.
+    /// The file gets its name when it is complete.
     ///
     /// # Errors
-    /// The name ends in neither, or the file cannot be written.
+    /// Returns an error if the name ends in neither, or if the file cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), RenderError> {
         match FileKind::of(path)? {
             FileKind::Display => write_image(path, image::ImageFormat::Png, &self.displayed()),
@@ -71,7 +71,7 @@ impl Picture {
     }
 }
 
-/// Writes linear display colours, whose white is 1, as `.png`, or as they are as `.exr`.
+/// Writes linear display colours with white at 1 into a `.png` (sRGB encoded) or `.exr` file (as they are).
 ///
 /// # Errors
 /// As [`Picture::save`].

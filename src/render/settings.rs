@@ -1,4 +1,4 @@
-//! How a picture of the same light is to look.
+//! What a picture shows of surfaces and their light, and how bright.
 
 use glam::Vec3;
 
@@ -6,13 +6,13 @@ use super::display::false_colour::LuxScale;
 use super::shadow::{ShadowDebug, ShadowSettings};
 use crate::base::ids::GroupId;
 
-/// Light groups that can be weighted; those beyond follow the last.
+/// Number of light groups with a weight of their own; further groups take that of the last.
 pub const MAX_GROUPS: usize = 8;
 
 /// How bright the picture is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
-    /// Metered from the picture itself.
+    /// Metered from the picture.
     Auto,
     /// Displayed = radiance x 2^EV.
     Ev(f32),
@@ -21,24 +21,25 @@ pub enum Exposure {
 /// How radiance beyond white is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ToneMap {
-    /// Khronos PBR Neutral: true colours up to 0.8 of white, highlights roll off without a change of hue.
+    /// Khronos PBR Neutral (2024): colours below 0.8 of white are unchanged; above it a smooth curve compresses the largest
+    /// channel p to 1 - 0.04 / (p - 0.6), and colours fade towards white without a change of hue.
     Neutral,
-    /// Cut off at white.
+    /// Clamps each channel at white.
     Linear,
 }
 
 /// What is shown of a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shading {
-    /// The light it sends: emission and reflection.
+    /// The light that it sends: emission and reflection.
     Lit,
-    /// The light it receives, as ideal white paint would show it: E / pi.
+    /// The light that it receives, as the radiance of white paint: E / pi.
     IrradianceOnly,
     /// The illuminance that it receives as a colour of [`RenderSettings::lux_scale`], with lines of equal illuminance.
     FalseColour,
-    /// Its reflectance, shown as it is, without exposure.
+    /// Its reflectance, without exposure.
     Albedo,
-    /// Its shading normal, 0.5 + 0.5 n, shown as it is.
+    /// Its shading normal as the colour 0.5 + 0.5 n, without exposure.
     Normals,
 }
 
@@ -55,7 +56,7 @@ impl Shading {
     }
 }
 
-/// How a picture of the same light is to look.
+/// What a picture shows of surfaces and their light, and how bright.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {
     /// How bright the picture is.
@@ -64,27 +65,26 @@ pub struct RenderSettings {
     pub tone_map: ToneMap,
     /// What is shown of a surface.
     pub shading: Shading,
-    /// Which illuminance has which false colour.
+    /// The scale of false colours.
     pub lux_scale: LuxScale,
     /// Factor on direct irradiance.
     pub direct: f32,
-    /// Direct light comes from the lights themselves, with these shadows; none: it comes from the vertices, as baked.
+    /// Settings of real-time direct light and its shadows; `None` takes direct light from the vertices, as baked.
     pub shadows: Option<ShadowSettings>,
-    /// What shadows work with is drawn over the picture.
+    /// A debug view of the shadow technique over the picture.
     pub shadow_debug: Option<ShadowDebug>,
     /// Factor on indirect irradiance.
     pub indirect: f32,
-    /// Radiance that ideal white paint shows everywhere in addition: it makes unlit scenes visible.
+    /// Radiance of white paint that is added everywhere; it makes unlit scenes visible.
     pub ambient: Vec3,
-    /// Factor on the light of each group `[g]`, and on the glow of its lamps; 1 where the list ends early.
+    /// Factor on the light of each group `[g]` and on the emission of its lamps; groups beyond the end of the list have 1.
     pub group_weights: Vec<Vec3>,
-    /// Linear display colour where nothing is seen, untouched by exposure.
+    /// Linear display colour of pixels without a surface; exposure does not change it.
     pub background: Vec3,
-    /// Metals, which reflect nothing diffusely and would be black, are shown as if their surroundings were even: with
-    /// their base colour as reflectance. False shows only the light that was solved.
+    /// Metals are drawn with their base colour as diffuse reflectance, as if their surroundings were even. Physically they
+    /// reflect nothing diffusely; false draws them black.
     pub metal_as_diffuse: bool,
-    /// Single-sided surfaces are invisible from behind, so that one can look into a room from outside; false shows
-    /// their backs black, as light meets them.
+    /// Single-sided surfaces are invisible from behind, which opens rooms to views from outside; false draws their backs black.
     pub cull_back: bool,
 }
 
@@ -119,7 +119,7 @@ impl ToneMap {
 }
 
 impl RenderSettings {
-    /// Factor of displayed colour on radiance, or none where it is to be metered.
+    /// The exposure, a factor on radiance; `None` if it is metered.
     #[must_use]
     pub fn fixed_exposure(&self) -> Option<f32> {
         match (self.shading, self.exposure) {
@@ -135,7 +135,7 @@ impl RenderSettings {
         self.group_weights.get(group.index().min(MAX_GROUPS - 1)).copied().unwrap_or(Vec3::ONE)
     }
 
-    /// The tone map in force: what is no light is shown as it is.
+    /// The tone map that applies: shadings that do not show light are linear.
     #[must_use]
     pub fn tone_map_in_force(&self) -> ToneMap {
         match self.shading {

@@ -6,24 +6,27 @@ use crate::gpu::Gpu;
 
 /// Radiance times pre-exposure, premultiplied by coverage; blendable and multisampled everywhere.
 pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
-/// Luminance times pre-exposure, for a light meter.
+/// Luminance times pre-exposure, for the light meter.
 pub const LUMINANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
-/// Reversed depth: 1 at the near plane, 0 infinitely far; floats then resolve every distance alike.
+/// Reversed depth: 1 at the near plane, 0 at infinity.
+///
+/// Perspective makes depth proportional to 1 / distance, and floats are dense near 0; reversed, the two cancel, and the
+/// relative precision of a distance is nearly the same everywhere (Reed 2015, "Depth Precision Visualized").
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// The textures that one picture is drawn into.
 pub struct Targets {
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// One sample a pixel.
+    /// The HDR picture with one value a pixel.
     pub hdr: wgpu::Texture,
     /// View of `hdr`.
     pub hdr_view: wgpu::TextureView,
-    /// Several samples a pixel, where there are several.
+    /// The HDR picture with several samples a pixel, if there are several.
     pub samples: Option<wgpu::TextureView>,
     /// Depth of each sample.
     pub depth: wgpu::TextureView,
-    /// Made when it is first needed.
+    /// Created by the first picture that needs it.
     luminance: OnceCell<wgpu::TextureView>,
 }
 
@@ -45,7 +48,7 @@ impl Targets {
         }
     }
 
-    /// One value a pixel, for pictures with one sample a pixel that are displayed at once.
+    /// The luminance of each pixel, for pictures whose surface pass writes display colours.
     pub fn luminance(&self, gpu: &Gpu) -> &wgpu::TextureView {
         self.luminance.get_or_init(|| {
             let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;

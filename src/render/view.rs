@@ -1,4 +1,8 @@
-//! From where a picture is taken.
+//! The camera of a picture as matrices, with reversed depth.
+//!
+//! The depth of a point at distance d is near / d: 1 at the near plane and 0 at infinity (Lapidous and Jiao 1999, "Optimal
+//! Depth Buffer for Low-Cost Graphics Hardware"). In a float buffer its relative precision is nearly the same at every
+//! distance, so the near plane can be a millimetre away and no far plane is needed.
 
 use glam::camera::rh::proj::directx;
 use glam::{Mat4, Vec3, Vec4};
@@ -7,15 +11,14 @@ use crate::base::bounds::Frustum;
 use crate::render::scene::cull_view::CullView;
 use crate::scene::{Camera, Projection};
 
-/// Near plane of a perspective view, metres; reversed depth stays exact however near it is.
+/// Near plane of a perspective view, metres.
 const NEAR: f32 = 1e-3;
 /// Depth of an orthographic view, metres.
 const ORTHOGRAPHIC_DEPTH: f32 = 1e3;
 
-/// From where a picture is taken.
+/// The camera of a picture.
 ///
-/// Depth is reversed: 1 at the near plane, 0 at infinity. Passes clear it to 0 and compare with Greater; a point at
-/// infinity (w = 0) is never clipped.
+/// Passes clear the reversed depth to 0 and compare with Greater; a point at infinity (w = 0) is never clipped.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
     /// Eye point, metres.
@@ -27,21 +30,21 @@ pub struct View {
 }
 
 impl View {
-    /// What `camera` sees in a picture `aspect` times as wide as high.
+    /// The view of `camera` for a picture that is `aspect` times as wide as high.
     #[must_use]
     pub fn from_camera(camera: &Camera, aspect: f32) -> Self {
         let projection_from_view = match camera.projection {
             Projection::Perspective { fov_y } => directx::perspective_infinite_reverse(fov_y, aspect, NEAR),
             Projection::Orthographic { half_height } => {
                 let half_width = half_height * aspect;
-                // Far before near reverses the depth.
+                // Far and near are exchanged, which reverses the depth.
                 directx::orthographic(-half_width, half_width, -half_height, half_height, ORTHOGRAPHIC_DEPTH, 0.0)
             }
         };
         Self { camera_position: camera.position, view_from_world: camera.view_from_world(), projection_from_view }
     }
 
-    /// What is in view.
+    /// The part of space in view.
     #[must_use]
     pub fn frustum(&self) -> Frustum {
         Frustum::new(&self.projection_from_world())
@@ -59,13 +62,13 @@ impl View {
         self.projection_from_view * self.view_from_world
     }
 
-    /// Depth at a distance along the axis of the view, metres.
+    /// Depth of a point at `distance` metres along the axis of the view.
     #[must_use]
     pub fn depth_at(&self, distance: f32) -> f32 {
         self.projection_from_view.project_point3(Vec3::new(0.0, 0.0, -distance)).z
     }
 
-    /// Homogeneous eye: its position with w = 1, or in an orthographic view the unit vector towards it with w = 0.
+    /// Homogeneous eye: its position with w = 1, or in an orthographic view the unit vector towards the eye with w = 0.
     #[must_use]
     pub fn eye(&self) -> Vec4 {
         let is_perspective = self.projection_from_view.w_axis.w == 0.0;
@@ -76,7 +79,7 @@ impl View {
         }
     }
 
-    /// From a point to the eye, metres; one metre towards it where it is infinitely far.
+    /// Vector from a point to the eye, metres; in an orthographic view the unit vector towards it.
     #[must_use]
     pub fn towards_eye(&self, point: Vec3) -> Vec3 {
         self.eye().truncate() - self.eye().w * point

@@ -1,8 +1,8 @@
 //! How far two pictures differ, in numbers that a test can hold.
 //!
-//! Three numbers, because each misses something: the relative error sees large faults anywhere, the mean difference a
-//! picture that is a little too bright everywhere, the perceptible share a small region that is plainly wrong. FLIP tells
-//! pixel by pixel what somebody would see.
+//! Each of the three numbers detects another fault: the relative error a large one anywhere, the mean difference a picture
+//! that is slightly too bright everywhere, the perceptible share a small region that is plainly wrong. FLIP estimates pixel
+//! by pixel what an observer sees.
 
 use std::path::Path;
 
@@ -23,7 +23,7 @@ pub struct Raster {
     pub size: [u32; 2],
     /// Linear colours.
     pub pixels: Vec<Vec3>,
-    /// Whether they are display colours, whose white is 1, or radiance.
+    /// Display colours, whose white is 1, or radiance.
     pub kind: FileKind,
 }
 
@@ -64,10 +64,10 @@ impl Raster {
         Self { size: [picture.width, picture.height], pixels, kind: FileKind::Radiance }
     }
 
-    /// A picture file.
+    /// Reads a picture file.
     ///
     /// # Errors
-    /// The file is missing, is no picture, or is neither `.png` nor `.exr`.
+    /// Returns an error if the file is missing, is no picture, or ends in neither `.png` nor `.exr`.
     pub fn load(path: &Path) -> Result<Self, RenderError> {
         let kind = FileKind::of(path)?;
         let image = image::open(path).map_err(|cause| RenderError::Read { path: path.to_owned(), cause })?;
@@ -80,7 +80,7 @@ impl Raster {
         Ok(Self { size, pixels, kind })
     }
 
-    /// What counts as white: for radiance five times the mean luminance, a usual exposure.
+    /// The value of white: 1 for display colours; for radiance five times the mean luminance, a usual exposure.
     fn white(&self) -> f32 {
         match self.kind {
             FileKind::Display => 1.0,
@@ -92,7 +92,7 @@ impl Raster {
     }
 }
 
-/// Linear colours of sRGB ones.
+/// Linear colours of sRGB-encoded ones.
 fn decoded(pixels: Vec<Vec3>) -> Vec<Vec3> {
     pixels.into_iter().map(|pixel| Vec3::from(pixel.to_array().map(linear_from_srgb))).collect()
 }
@@ -100,7 +100,7 @@ fn decoded(pixels: Vec<Vec3>) -> Vec<Vec3> {
 /// How far `picture` is from `reference`.
 ///
 /// # Errors
-/// Their sizes differ.
+/// Returns an error if the sizes differ.
 pub fn compare(picture: &Raster, reference: &Raster) -> Result<Difference, RenderError> {
     check_sizes(picture, reference)?;
     let white = reference.white();
@@ -119,11 +119,11 @@ pub fn compare(picture: &Raster, reference: &Raster) -> Result<Difference, Rende
     })
 }
 
-/// How different each pixel looks, 0 the same .. 1 as different as can be, by FLIP; radiance is shown so that five times
-/// the mean of the reference is white.
+/// The FLIP error of each pixel, from 0 (equal) to 1. Radiance is exposed so that five times the mean of the reference is
+/// white.
 ///
 /// # Errors
-/// Their sizes differ.
+/// Returns an error if the sizes differ.
 pub fn visible_difference(picture: &Raster, reference: &Raster) -> Result<Vec<f32>, RenderError> {
     check_sizes(picture, reference)?;
     let white = reference.white();
@@ -139,12 +139,12 @@ fn check_sizes(picture: &Raster, reference: &Raster) -> Result<(), RenderError> 
     Err(RenderError::SizesDiffer { a: picture.size, b: reference.size })
 }
 
-/// `part / whole`; nothing of nothing is nothing, something of nothing is infinite.
+/// `part / whole`; 0 / 0 is 0.
 fn ratio(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }
 
-/// The colours differ by more than an eye just notices, or one of them is no number.
+/// The colours differ by more than an eye just notices, or one of them is not a number.
 pub fn is_perceptible(a: Vec3, b: Vec3, white: f32) -> bool {
     let distance = (lab(a / white) - lab(b / white)).length();
     distance.is_nan() || distance > PERCEPTIBLE_STEP
@@ -212,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn one_bad_region_is_counted() {
+    fn each_pixel_of_a_wrong_region_is_counted() {
         let difference = changed(|i, pixel| if i % 64 < 8 && i / 64 < 8 { Vec3::ZERO } else { pixel });
         assert_eq!(difference.perceptible_share, 64.0 / 4096.0);
         assert!(difference.relative_rmse < 0.1, "{difference:?}");
@@ -225,13 +225,13 @@ mod tests {
     }
 
     #[test]
-    fn a_value_that_is_no_number_is_always_a_difference() {
+    fn a_value_that_is_not_a_number_is_always_a_difference() {
         let difference = changed(|i, pixel| if i == 7 { Vec3::NAN } else { pixel });
         assert!(difference.perceptible_share > 0.0 && difference.relative_rmse.is_nan());
     }
 
     #[test]
-    fn other_sizes_are_refused() {
+    fn pictures_of_different_sizes_are_refused() {
         let small = Raster { size: [32, 128], ..sample() };
         assert!(matches!(compare(&small, &sample()), Err(RenderError::SizesDiffer { .. })));
     }

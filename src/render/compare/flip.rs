@@ -1,7 +1,14 @@
-//! FLIP: how different two pictures look to somebody who flips between them.
+//! FLIP: the difference that an observer sees who flips between two pictures.
 //!
-//! Colours are blurred as the eye blurs them at a distance and compared in a uniform space; edges and points that one
-//! picture has and the other lacks weigh more.
+//! Both pictures are converted to an opponent colour space, filtered by the contrast sensitivity of the eye at a viewing
+//! distance, and compared in CIELAB with the HyAB metric, which gives a colour difference dC in 0..1. Edge and point detectors
+//! give a feature difference dF. The error of a pixel is
+//!
+//! ```text
+//! dE = dC^(1 - dF)
+//! ```
+//!
+//! so a colour difference counts more where one picture has a feature that the other lacks.
 //!
 //! Source: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild 2020, "FLIP: A Difference Evaluator for
 //! Alternating Images" (sections and constants are those of the paper).
@@ -13,25 +20,25 @@ use rayon::prelude::*;
 
 use crate::base::colour::linear_from_srgb;
 
-/// A screen 0.7 m wide with 3840 pixels, 0.7 m away.
+/// Of a screen 0.7 m wide with 3840 pixels, seen from 0.7 m.
 const PIXELS_PER_DEGREE: f32 = 67.02;
 
 /// Exponents of the colour and of the feature difference (sections 4.1.3 and 4.3).
 const COLOUR_EXPONENT: f32 = 0.7;
 const FEATURE_EXPONENT: f32 = 0.5;
 
-/// Share of the largest colour difference up to which it counts in full, and what it is mapped to (section 4.1.3).
+/// Share of the largest colour difference that is mapped to [`FULL_VALUE`]; larger ones share the rest (section 4.1.3).
 const FULL_SHARE: f32 = 0.4;
 const FULL_VALUE: f32 = 0.95;
 
-/// Width of the features that are looked for, degrees (section 4.2).
+/// Width of the detected features, degrees (section 4.2).
 const FEATURE_WIDTH: f32 = 0.082;
 
 /// XYZ of white (D65) as the linear Rec. 709 matrix gives it.
 const WHITE: Vec3 = Vec3::new(0.950_428_55, 1.0, 1.088_900_3);
 
-/// How different each pixel looks, 0 the same .. 1 as different as can be; both pictures have `width` pixels a row of
-/// linear display colours, white 1.
+/// The FLIP error of each pixel, from 0 (equal) to 1. Both pictures have `width` pixels a row of linear display colours with
+/// white at 1.
 ///
 /// Shapes: `picture` and `reference` `[pixel]`, row by row.
 #[must_use]
@@ -47,7 +54,7 @@ pub fn flip(picture: &[Vec3], reference: &[Vec3], width: usize) -> Vec<f32> {
     (0..reference.len()).map(pixel).collect()
 }
 
-/// What the eye makes of a picture.
+/// A picture as the eye perceives it.
 struct Seen {
     /// Blurred, in CIELAB with Hunt's adjustment.
     colours: Vec<Vec3>,
@@ -96,19 +103,19 @@ fn lab(linear: Vec3) -> Vec3 {
     Vec3::new(116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z))
 }
 
-/// Hunt's effect: colours look paler in the dark.
+/// The Hunt effect: dark colours appear less saturated.
 fn hunt(lab: Vec3) -> Vec3 {
     let paleness = 0.01 * lab.x;
     Vec3::new(lab.x, paleness * lab.y, paleness * lab.z)
 }
 
-/// Distance of colours that may lie far apart (Abasi 2020).
+/// HyAB distance, for colours that may be far apart (Abasi et al. 2020): |dL| + length(da, db).
 fn hyab(a: Vec3, b: Vec3) -> f32 {
     let apart = a - b;
     apart.x.abs() + Vec2::new(apart.y, apart.z).length()
 }
 
-/// Maps a colour difference to 0..1 so that the usual ones get most of the range.
+/// Maps a colour difference to 0..1; usual differences take most of the range.
 fn spread(difference: f32, largest: f32) -> f32 {
     let full = FULL_SHARE * largest;
     if difference < full {
@@ -118,11 +125,11 @@ fn spread(difference: f32, largest: f32) -> f32 {
     }
 }
 
-/// A picture as an eye blurs it, channel by channel of the opponent colours (section 4.1.1, table 1).
+/// A picture filtered by the contrast sensitivity of the eye, channel by channel (section 4.1.1, table 1).
 fn blurred(opponent: &[Vec3], width: usize) -> Vec<Vec3> {
     /// Amplitudes and widths of the Gaussians that make up the contrast sensitivity of a channel.
     const SENSITIVITY: [&[[f32; 2]]; 3] = [&[[1.0, 0.0047]], &[[1.0, 0.0053]], &[[34.1, 0.04], [13.5, 0.025]]];
-    /// Pixels beyond which the widest one is next to nothing.
+    /// Pixels beyond which the widest Gaussian is negligible.
     const RADIUS: i32 = 10;
     let channel = |k: usize| -> Vec<f32> {
         let values: Vec<f32> = opponent.iter().map(|colour| colour[k]).collect();
@@ -163,7 +170,7 @@ fn kernel(radius: i32, value: impl Fn(f32) -> f32) -> Vec<f32> {
     (-radius..=radius).map(|x| value(x as f32)).collect()
 }
 
-/// Scales what is above and what is below zero so that each sums to one.
+/// Scales the positive and the negative values so that each sum to 1.
 fn balanced(kernel: Vec<f32>) -> Vec<f32> {
     let sum = |sign: f32| kernel.iter().map(|x| (sign * x).max(0.0)).sum::<f32>();
     let (above, below) = (sum(1.0), sum(-1.0));
@@ -181,7 +188,7 @@ fn balanced(kernel: Vec<f32>) -> Vec<f32> {
         .collect()
 }
 
-/// Convolution with a kernel along rows and one along columns; the pixels at the border go on.
+/// Convolution with a kernel along rows and another along columns; the border pixels are repeated outwards.
 fn convolved(values: &[f32], width: usize, along_row: &[f32], along_column: &[f32]) -> Vec<f32> {
     let height = values.len() / width;
     let weighted = |kernel: &[f32], at: usize, size: usize, value: &dyn Fn(usize) -> f32| -> f32 {
@@ -201,7 +208,7 @@ fn convolved(values: &[f32], width: usize, along_row: &[f32], along_column: &[f3
         .collect()
 }
 
-/// A colour for each difference from 0 to 1: matplotlib's magma, by Zucker's polynomials; linear.
+/// The linear colour of a difference from 0 to 1: matplotlib's magma map, by the polynomials of Zucker.
 #[must_use]
 pub fn magma(difference: f32) -> Vec3 {
     const FACTORS: [[f32; 3]; 7] = [
@@ -233,8 +240,8 @@ mod tests {
     }
 
     #[test]
-    fn differences_are_those_of_the_authors_program() {
-        // Mean, largest, and two pixels as flip-evaluator 1.7 prints them for the same pictures.
+    fn differences_are_those_of_the_program_of_the_authors() {
+        // Mean, largest value, and two pixels as flip-evaluator 1.7 prints them for the same pictures.
         type Change = fn(&[Vec3], usize) -> Vec3;
         let changes: [(Change, [f32; 4]); 4] = [
             (|p, i| p[if i % 64 == 0 { i } else { i - 1 }], [0.109_614_26, 0.280_622_27, 0.056_917_76, 0.090_495_93]),
@@ -260,12 +267,12 @@ mod tests {
     }
 
     #[test]
-    fn what_is_the_same_looks_the_same() {
+    fn equal_pictures_have_no_difference() {
         assert!(flip(&blocks(), &blocks(), 64).iter().all(|&difference| difference == 0.0));
     }
 
     #[test]
-    fn the_map_goes_from_black_to_pale_yellow() {
+    fn the_colour_map_goes_from_black_to_pale_yellow() {
         assert!(magma(0.0).max_element() < 0.01 && magma(1.0).min_element() > 0.4, "{} {}", magma(0.0), magma(1.0));
     }
 }

@@ -1,6 +1,14 @@
-//! Exposure and tone mapping without a GPU: a picture that rays made, shown as the renderer shows its own.
+//! Exposure and tone mapping on the CPU, for pictures that rays have made.
 //!
-//! The same formulas as shaders/display/light_meter.wgsl and shaders/display/tone_map.wgsl, which a test holds together.
+//! The formulas are those of `shaders/display/light_meter.wgsl` and `shaders/display/tone_map.wgsl`; a test compares the
+//! results. The exposure is
+//!
+//! ```text
+//! exposure = min(0.2 / exp2(mean of log2 L), 1.5 / L at the 95th percentile)
+//! ```
+//!
+//! which places the log-average luminance at middle grey (Reinhard et al. 2002, "Photographic Tone Reproduction for Digital
+//! Images", eq. 1) unless the brightest twentieth of the pixels would then exceed one and a half times white.
 
 use glam::Vec3;
 
@@ -16,8 +24,8 @@ const MIDDLE_GREY: f32 = 0.2;
 const HIGHLIGHT_SHARE: f32 = 0.95;
 const HIGHLIGHT: f32 = 1.5;
 
-/// A picture of `size` pixels from linear radiance before exposure, premultiplied by the fourth channel, the share of the
-/// pixel that is covered.
+/// Returns a picture of `size` pixels from linear radiance before exposure, premultiplied by the fourth channel, which is
+/// the covered share of the pixel.
 #[must_use]
 pub fn tone_map_on_cpu(size: [u32; 2], radiance: Vec<[f32; 4]>, settings: &RenderSettings) -> Picture {
     let exposure = settings.fixed_exposure().unwrap_or_else(|| metered(size, &radiance));
@@ -29,7 +37,7 @@ pub fn tone_map_on_cpu(size: [u32; 2], radiance: Vec<[f32; 4]>, settings: &Rende
     Picture { width: size[0], height: size[1], radiance, display }
 }
 
-/// Factor that shows the picture neither too dark nor burnt out.
+/// The metered exposure, a factor on radiance.
 fn metered(size: [u32; 2], radiance: &[[f32; 4]]) -> f32 {
     let histogram = histogram(size[0] as usize, radiance);
     let counted = || histogram.iter().enumerate().skip(1);
@@ -47,7 +55,7 @@ fn metered(size: [u32; 2], radiance: &[[f32; 4]]) -> f32 {
     (MIDDLE_GREY / (log_sum / total as f32).exp2()).min(HIGHLIGHT / highlight)
 }
 
-/// How many pixels have which luminance; bin 0 holds what is dark.
+/// Histogram of log2 luminance over every other pixel of every other row; bin 0 counts the dark ones.
 fn histogram(width: usize, radiance: &[[f32; 4]]) -> [u32; NUM_BINS] {
     let mut bins = [0; NUM_BINS];
     for row in radiance.chunks(width).step_by(STEP) {
@@ -64,7 +72,7 @@ fn log2_of_bin(bin: usize) -> f32 {
     (bin as f32 + 0.5) / BINS_PER_STOP + DARKEST
 }
 
-/// RGBA as displayed: exposure, tone curve, background, sRGB, dither.
+/// RGBA bytes of a pixel: exposure, tone curve, background, sRGB encoding, dither.
 fn display_bytes([r, g, b, coverage]: [f32; 4], at: [u32; 2], exposure: f32, settings: &RenderSettings) -> [u8; 4] {
     let exposed = Vec3::new(r, g, b) * exposure;
     let toned = match settings.tone_map_in_force() {

@@ -1,19 +1,19 @@
 //! Illuminance as a colour: the scale, and the colours for legends.
 //!
-//! The picture itself is coloured by shaders/display/false_colour.wgsl; a test holds the two together.
+//! `shaders/display/false_colour.wgsl` colours the picture by the same formulas; a test compares the two.
 
 use glam::Vec4;
 
-/// Which illuminance has which colour.
+/// The scale that assigns colours to illuminances.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct LuxScale {
-    /// Illuminance of the first colour, lux, above 0 on a logarithmic scale.
+    /// Illuminance of the first colour, lux; above 0 on a logarithmic scale.
     pub low: f32,
     /// Illuminance of the last colour, lux.
     pub high: f32,
-    /// Equal ratios and not equal differences are equally far apart.
+    /// Equal ratios take equal lengths of the scale, instead of equal differences.
     pub is_logarithmic: bool,
-    /// Parts that lines of equal illuminance cut the scale into; 0 draws no lines.
+    /// Number of equal parts that lines of equal illuminance divide the scale into; 0 draws no lines.
     pub num_parts: u32,
 }
 
@@ -24,10 +24,10 @@ impl Default for LuxScale {
 }
 
 impl LuxScale {
-    /// Least illuminance that a scale begins with where it is logarithmic.
+    /// Smallest illuminance that a logarithmic scale begins with, lux.
     const LEAST: f32 = 1e-3;
 
-    /// The scale with its ends in order and apart.
+    /// The scale with its ends in order and distinct.
     #[must_use]
     pub fn in_order(self) -> Self {
         let low = if self.is_logarithmic { self.low.max(Self::LEAST) } else { self.low.max(0.0) };
@@ -48,7 +48,7 @@ impl LuxScale {
     }
 }
 
-/// Turbo, sRGB bytes of a value in 0..1.
+/// The sRGB bytes of the Turbo colour map at `x` in 0..1.
 ///
 /// Source: Mikhailov 2019, "Turbo, An Improved Rainbow Colormap for Visualization" (its polynomial).
 #[must_use]
@@ -70,7 +70,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_scale_goes_from_end_to_end_whatever_its_kind() {
+    fn a_scale_goes_from_its_low_to_its_high_end() {
         for is_logarithmic in [true, false] {
             let scale = LuxScale { low: 20.0, high: 500.0, is_logarithmic, num_parts: 4 };
             assert!((scale.lux_at(0.0) - 20.0).abs() < 1e-3 && (scale.lux_at(1.0) - 500.0).abs() < 1e-2);
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_that_are_the_wrong_way_round_are_put_in_order() {
+    fn exchanged_ends_are_put_in_order() {
         for is_logarithmic in [true, false] {
             let scale = LuxScale { low: 100.0, high: 0.0, is_logarithmic, num_parts: 0 }.in_order();
             assert!(scale.low > 0.0 && scale.high > scale.low, "{scale:?}");

@@ -1,10 +1,14 @@
-//! Metering: the exposure that suits a picture, found on the GPU so that a live frame never waits for it.
+//! Light meter: the exposure that suits a picture, computed on the GPU so that no frame waits for it.
+//!
+//! A histogram of log2 luminance gives the log-average, which is placed at middle grey, 0.2 of white (Reinhard et al. 2002,
+//! "Photographic Tone Reproduction for Digital Images", eq. 1), unless the brightest twentieth of the pixels would exceed one
+//! and a half times white. `display::cpu_tone_map` states the equation.
 
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
 use crate::render::targets::Targets;
 
-/// Metering: the exposure that suits a picture.
+/// Shader of the light meter.
 pub(in crate::render) const METER: Shader =
     shader!("meter", "shared/frame.wgsl", "shared/colour.wgsl", "display/light_meter.wgsl");
 
@@ -32,7 +36,7 @@ impl MeterInput {
     }
 }
 
-/// Metering.
+/// Light meter.
 pub struct LightMeter {
     layout: wgpu::BindGroupLayout,
     count: wgpu::ComputePipeline,

@@ -1,10 +1,13 @@
-//! Tone mapping: the HDR picture becomes display colours in the caller's target.
+//! Tone mapping pass: converts the HDR picture to display colours in the caller's target.
+//!
+//! Each sample is exposed, mapped, and blended with the background before the samples of a pixel are averaged, so that the
+//! edges of bright lamps stay smooth. The curve itself is in `shaders/display/display_colour.wgsl`.
 
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
 use crate::render::targets::Targets;
 
-/// Tone mapping of a picture with one sample a pixel.
+/// Shader for pictures with one sample a pixel.
 pub(in crate::render) const TONE_MAP: Shader = shader!(
     "tone map",
     "shared/frame.wgsl",
@@ -13,7 +16,7 @@ pub(in crate::render) const TONE_MAP: Shader = shader!(
     "display/samples_one.wgsl",
     "display/tone_map.wgsl"
 );
-/// Tone mapping of a picture with several samples a pixel.
+/// Shader for pictures with several samples a pixel.
 pub(in crate::render) const TONE_MAP_SAMPLES: Shader = shader!(
     "tone map, samples",
     "shared/frame.wgsl",
@@ -23,7 +26,7 @@ pub(in crate::render) const TONE_MAP_SAMPLES: Shader = shader!(
     "display/tone_map.wgsl"
 );
 
-/// Tone mapping.
+/// Tone mapping pass.
 pub struct ToneMapPass {
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::RenderPipeline,
@@ -70,7 +73,7 @@ impl ToneMapPass {
         Self { layout, pipeline }
     }
 
-    /// Fills `target`, which has the size of `targets`.
+    /// Draws the whole of `target`, which has the size of `targets`.
     pub fn draw(
         &self,
         gpu: &Gpu,

@@ -1,4 +1,4 @@
-//! The order in which triangles are drawn: by material, those that blend last, neighbours together.
+//! The order in which triangles are drawn: by material, blending ones last, neighbours together.
 
 use wgpu::util::DeviceExt;
 
@@ -69,7 +69,7 @@ impl MeshTriangles<'_> {
 }
 
 impl DrawOrder {
-    /// Three vertices a triangle.
+    /// The index buffer: three vertices a triangle.
     pub fn indices(&self, vertices: impl Fn(TriangleId) -> [u32; 3]) -> Vec<u32> {
         self.triangles.iter().flat_map(|&id| vertices(id)).collect()
     }

@@ -1,4 +1,4 @@
-//! Materials on the device: one bind group each, with its numbers and textures.
+//! Materials on the device: a bind group each, with numbers and textures.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};

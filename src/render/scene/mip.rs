@@ -1,4 +1,4 @@
-//! Mip maps, made on the CPU in linear light: averaging encoded sRGB bytes would darken what is far away.
+//! Mip maps, computed on the CPU in linear light: the mean of sRGB-encoded bytes is too dark.
 
 use glam::Vec4;
 use rayon::prelude::*;
@@ -74,7 +74,7 @@ impl Linear {
         Level { width: self.width, height: self.height, rgba: rgba.collect() }
     }
 
-    /// Half the size, rounded down, by the exact area average; an odd side is shared out in fractions of texels.
+    /// Half the size, rounded down, by the exact mean over areas; for an odd side, texels count in fractions.
     fn halved(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let columns: Vec<_> = (0..width).map(|x| footprint(x, width, self.width)).collect();
@@ -99,7 +99,7 @@ impl Linear {
     }
 }
 
-/// The source texels under one texel of the next level, at most three, and their shares.
+/// The texels under one texel of the next level along one axis, at most three, and their shares.
 struct Footprint {
     first: usize,
     weights: [f32; 3],
@@ -118,7 +118,7 @@ fn footprint(index: u32, size: u32, source_size: u32) -> Footprint {
     let first = low.floor();
     let weights = std::array::from_fn(|i| {
         let (left, right) = (first + i as f32, first + i as f32 + 1.0);
-        // Shares below a thousandth are rounding, and could lie outside the image.
+        // A share below a thousandth is a rounding error, and its texel may lie outside the image.
         let share = (right.min(high) - left.max(low)) / ratio;
         if share > 1e-3 { share } else { 0.0 }
     });
@@ -134,7 +134,7 @@ mod tests {
     }
 
     #[test]
-    fn colours_are_averaged_in_linear_light_and_data_as_it_is() {
+    fn colours_are_averaged_in_linear_light_and_data_as_stored() {
         let board = grey(&[0, 255, 255, 0]);
         let colour = mip_chain(2, 2, &board, Encoding::Srgb, 64);
         let data = mip_chain(2, 2, &board, Encoding::Linear, 64);
@@ -143,7 +143,7 @@ mod tests {
     }
 
     #[test]
-    fn odd_sizes_use_every_texel_alike() {
+    fn odd_sizes_weight_every_texel_equally() {
         let chain = mip_chain(5, 3, &grey(&[[0, 0, 0, 0, 255]; 3].concat()), Encoding::Linear, 64);
         let sizes: Vec<_> = chain.iter().map(|level| (level.width, level.height)).collect();
         assert_eq!(sizes, [(5, 3), (2, 1), (1, 1)]);
@@ -151,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn too_large_images_begin_with_a_smaller_level() {
+    fn images_that_are_too_large_begin_with_a_smaller_level() {
         let chain = mip_chain(8, 2, &grey(&[7; 16]), Encoding::Linear, 4);
         assert_eq!((chain[0].width, chain[0].height), (4, 1));
         assert_eq!(chain.len(), 3);

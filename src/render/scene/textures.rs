@@ -9,10 +9,10 @@ use super::mip::{Encoding, Level, mip_chain};
 use crate::gpu::Gpu;
 use crate::scene::{Image, Sampler, Scene, TextureSlot, Wrap};
 
-/// Samples along the longer axis of a pixel's footprint.
+/// Most samples along the longer axis of the footprint of a pixel.
 const ANISOTROPY: u16 = 8;
 
-/// Every image that a scene's materials read, once per meaning of its bytes, and every sampler once.
+/// The images that the materials of a scene read, once for each encoding, and its samplers.
 pub struct Textures {
     images: HashMap<(*const Image, Encoding), wgpu::TextureView>,
     samplers: HashMap<Sampler, wgpu::Sampler>,
@@ -20,14 +20,14 @@ pub struct Textures {
 }
 
 impl Textures {
-    /// A store that holds one white texel.
+    /// Holds a white texel and nothing else yet.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
         let white = [Level { width: 1, height: 1, rgba: vec![255; 4] }];
         Self { images: HashMap::new(), samplers: HashMap::new(), white: upload(gpu, "white", &white, Encoding::Linear) }
     }
 
-    /// The texture that a slot names with its sampler, uploaded at the first call; white where there is no slot.
+    /// The texture and sampler of a slot; the first call uploads the texture. White if there is no slot.
     pub fn bind(
         &mut self,
         gpu: &Gpu,
@@ -90,7 +90,7 @@ fn create_sampler(gpu: &Gpu, sampler: Sampler) -> wgpu::Sampler {
         mag_filter: if sampler.nearest { wgpu::FilterMode::Nearest } else { wgpu::FilterMode::Linear },
         min_filter: wgpu::FilterMode::Linear,
         mipmap_filter: wgpu::MipmapFilterMode::Linear,
-        // Anisotropic filtering is only defined where every filter is linear.
+        // Anisotropic filtering requires that every filter is linear.
         anisotropy_clamp: if sampler.nearest { 1 } else { ANISOTROPY },
         ..Default::default()
     })

@@ -1,4 +1,4 @@
-//! The coarse mesh of a bake on the device, and what of it a picture draws.
+//! The coarse mesh of a bake on the device, and the part of it that a picture draws.
 
 use std::sync::Arc;
 
@@ -19,9 +19,9 @@ use crate::scene::{AlphaMode, Scene, Triangle, edge_cross};
 /// The coarse mesh of a bake.
 #[derive(Clone)]
 pub struct TiledMesh {
-    /// [`GpuVertex`] of the corners of triangles with tiles; those without have the vertices of the scene.
+    /// [`GpuVertex`] of the corners of triangles with tiles; the other triangles use the vertices of the scene.
     pub vertices: wgpu::Buffer,
-    /// Two triples for each of these corners: its place in a tile, where vertices of the scene have irradiance.
+    /// Two triples of f32 for each of these corners: its place in a tile, in the attributes that hold irradiance otherwise.
     pub places: wgpu::Buffer,
     /// Three u32 a triangle, batch by batch.
     pub indices: wgpu::Buffer,
@@ -29,7 +29,7 @@ pub struct TiledMesh {
     pub batches: Vec<DrawBatch>,
     /// Their light.
     pub tiles: Arc<Tiles>,
-    /// What pictures draw parts of.
+    /// All triangles in the order of drawing; pictures select from it.
     drawing: Arc<Drawing>,
     mesh: Arc<Mesh>,
 }
@@ -43,14 +43,14 @@ struct Drawing {
     planes: Vec<Vec4>,
 }
 
-/// Triangles of the scene's vertices, the first of which have tiles.
+/// The triangles of the mesh, those with tiles first.
 struct Mesh {
     triangles: Vec<Triangle>,
     num_tiles: usize,
 }
 
 impl TiledMesh {
-    /// Uploads the coarse mesh of a scene, whose vertices lie in this order on the device.
+    /// Uploads the coarse mesh of a scene. `order` is that of the scene's vertices on the device.
     pub(super) fn new(gpu: &Gpu, scene: &Scene, order: &VertexOrder, mut coarse: CoarseMesh) -> Self {
         sort_tiles(&mut coarse, scene);
         let tiled = &coarse.triangles[..coarse.tiles.len()];
@@ -74,7 +74,7 @@ impl TiledMesh {
         }
     }
 
-    /// The triangles that are shown.
+    /// The triangles that `is_shown` returns true for.
     pub(super) fn part(
         &self,
         gpu: &Gpu,
@@ -87,8 +87,8 @@ impl TiledMesh {
         Self { indices, batches, drawing: Arc::new(drawing), ..self.clone() }
     }
 
-    /// The triangles that may be seen, of each batch the nearest chunks first: what they hide is not shaded. Triangles that
-    /// show a back which is not drawn are left out here, since software drivers transform them like all others.
+    /// The triangles that may be in view, in each batch the nearest chunks first, so that what they hide is not shaded.
+    /// Culled backs are dropped here, because a software driver transforms every triangle that it is given.
     pub(super) fn in_view(&self, gpu: &Gpu, from: &CullView) -> Self {
         let mut near: Vec<(f32, &Chunk)> =
             self.drawing.chunks.iter().filter_map(|c| Some((from.distance(&c.bounds)?, c))).collect();
@@ -98,7 +98,7 @@ impl TiledMesh {
         for (number, batch) in self.batches.iter().enumerate() {
             let first = 3 * indices.len() as u32;
             let is_culled = batch.faces.are_culled(from.cull_back);
-            // What blends stays as it is.
+            // Triangles that blend keep the order of the file.
             let chunks: &mut dyn Iterator<Item = &Chunk> = match batch.alpha_mode {
                 AlphaMode::Blend => &mut self.drawing.chunks.iter(),
                 AlphaMode::Opaque | AlphaMode::Mask { .. } => &mut near.iter().map(|(_, chunk)| *chunk),
@@ -118,7 +118,7 @@ impl TiledMesh {
     }
 }
 
-/// Brings tiles into the order of drawing: their corners lie on the device as they do here.
+/// Sorts the tiles into the order of drawing, in which their corners are uploaded.
 fn sort_tiles(coarse: &mut CoarseMesh, scene: &Scene) {
     let num_tiled = coarse.tiles.len();
     let drawn = MeshTriangles { triangles: &coarse.triangles, num_tiled };
@@ -130,7 +130,7 @@ fn sort_tiles(coarse: &mut CoarseMesh, scene: &Scene) {
 }
 
 impl Mesh {
-    /// Batches, and the triangles of all in the order of drawing.
+    /// Batches, and all triangles in the order of drawing.
     fn drawing(
         &self,
         scene: &Scene,
@@ -153,9 +153,9 @@ impl Mesh {
     }
 }
 
-/// What the corners of a tile hold (shaders/surface/pass.wgsl), in a texture so many texels wide.
+/// The attributes of the corners of a tile (shaders/surface/pass.wgsl), in a texture `texture` texels wide.
 fn corners_of(tile: &Tile, texture: f32) -> [[Vec3; 2]; 3] {
-    // The middle of its texel.
+    // The centre of the first texel.
     let first = (tile.origin.as_vec2() + 0.5) / texture;
     let width = tile.side as f32 / texture;
     [Vec2::ZERO, Vec2::X, Vec2::Y].map(|corner| [corner.extend(first.x), Vec3::new(first.y, width, 0.0)])

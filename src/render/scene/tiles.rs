@@ -1,4 +1,5 @@
-//! The light of a coarse mesh on the device: a texture of tiles, and what it is filled from. `render::light_tiles` fills it.
+//! The light of a coarse mesh on the device: a texture of tiles, and the buffers that it is filled from.
+//! `render::stored_light::light_tiles` fills it.
 
 use std::sync::Mutex;
 
@@ -12,30 +13,30 @@ use crate::baked::coarse::CoarseMesh;
 use crate::gpu::Gpu;
 use crate::render::targets::HDR_FORMAT;
 
-/// The light of tiles, and what it is made from.
+/// The light of tiles, and the buffers that it is filled from.
 pub struct Tiles {
     /// Radiance of white paint, scaled by pre-exposure.
     pub light: wgpu::TextureView,
-    /// `Element` of shaders/stored_light/light_tiles.wgsl, of each element that is in a tile.
+    /// `Element` of shaders/stored_light/light_tiles.wgsl for each element in a tile.
     pub elements: wgpu::Buffer,
     /// The element of each texel, a u32, row by row.
     pub element_of: wgpu::Buffer,
-    /// Texels that go on beyond the long sides of tiles, a u32 each.
+    /// Texels beyond the long sides of tiles, which bilinear reads touch, a u32 each.
     pub beyond: wgpu::Buffer,
-    /// Room for radiance at the vertices of the scene, eight bytes each.
+    /// Scratch for the radiance at the vertices of the scene, eight bytes each.
     pub radiances: wgpu::Buffer,
     /// Texels across and down.
     pub side: u32,
-    /// What the texture holds; nothing at first.
+    /// The light that the texture holds; `None` before it is filled.
     pub held: Mutex<Option<HeldLight>>,
 }
 
-/// Light of the vertices, as tiles hold it.
+/// A state of the light of the vertices, and how it was weighted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldLight {
     /// The light.
     pub light: LightVersion,
-    /// All numbers that it was weighted with.
+    /// All weights.
     pub weights: Vec<Vec3>,
 }
 
@@ -47,19 +48,19 @@ struct TileElement {
     corners: [u32; 3],
 }
 
-/// A texel as shaders/stored_light/light_tiles.wgsl has it: across, and in the upper half down.
+/// A texel as shaders/stored_light/light_tiles.wgsl reads it: x in the lower half, y in the upper half.
 fn packed(texel: UVec2) -> u32 {
     texel.x | texel.y << 16
 }
 
 impl Tiles {
-    /// A device with these limits can bind what they are filled from.
+    /// A device with these limits can bind the buffers.
     pub(super) fn can_be_bound(coarse: &CoarseMesh, limits: &wgpu::Limits) -> bool {
         let sizes = [size_of_val(&coarse.element_of[..]), size_of::<TileElement>() * coarse.elements.len()];
         sizes.into_iter().all(|size| size as u64 <= limits.max_storage_buffer_binding_size)
     }
 
-    /// Uploads all but the light.
+    /// Uploads everything but the light.
     pub(super) fn new(gpu: &Gpu, coarse: &CoarseMesh, order: &VertexOrder, num_vertices: usize) -> Self {
         let element = |vertices: [u32; 3], corners: [UVec2; 3]| TileElement {
             vertices: vertices.map(|v| order.place(v)),

@@ -1,14 +1,14 @@
-//! The order of vertices on the device: that in which triangles use them, so that neighbours lie side by side in memory.
+//! The order of vertices on the device: that of their first use, so that neighbours lie side by side in memory.
 //!
-//! Triangles are drawn neighbour by neighbour (`scene_order`), but a file or a bake may have their vertices anywhere; a
-//! vertex that is not in a cache takes a software driver longer to fetch than to transform.
+//! Triangles are drawn neighbour by neighbour (`draw_order`), but a file or a bake may store their vertices in any order. On a
+//! software driver a vertex that is in no cache takes longer to fetch than to transform.
 
 use std::sync::Arc;
 
-/// Where vertices lie on the device.
+/// The order of vertices on the device.
 #[derive(Clone)]
 pub(super) struct VertexOrder {
-    /// Of each vertex `[v]` of the scene.
+    /// Index on the device of each vertex `[v]` of the scene.
     places: Arc<[u32]>,
 }
 
@@ -38,7 +38,7 @@ impl VertexOrder {
         indices.iter().map(|&vertex| self.place(vertex)).collect()
     }
 
-    /// What belongs to the vertices `[v]` of the scene, as it lies on the device.
+    /// Values of the vertices `[v]` of the scene, in the order of the device.
     pub fn sorted<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
         let mut sorted = vec![T::default(); values.len()];
         for (&place, &value) in self.places.iter().zip(values) {
@@ -53,7 +53,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn vertices_lie_in_the_order_of_their_first_use() {
+    fn vertices_are_in_the_order_of_their_first_use() {
         let indices = [4, 2, 5, 5, 2, 0];
         let order = VertexOrder::new(&indices, 6);
         assert_eq!(order.indices(&indices), [0, 1, 2, 2, 1, 3]);

@@ -1,5 +1,11 @@
-//! The light of the vertices summed over the light groups, each weighted as a look wants it: found once and kept while
-//! neither the light nor the weights change, so that a dimmed lamp costs one pass over the vertices and a moving eye none.
+//! The light of the vertices, summed over the light groups with the weights of the settings.
+//!
+//! ```text
+//! E[v] = sum over groups g of weight[g] * E[g][v]
+//! ```
+//!
+//! Light is linear, so dimming a lamp scales its group. A compute pass finds the sum when the light or a weight changes and
+//! keeps it: a moving camera costs nothing.
 
 use glam::Vec3;
 
@@ -11,19 +17,19 @@ use crate::render::scene::SceneBuffers;
 use crate::render::scene::vertex_light::LightVersion;
 use crate::render::settings::MAX_GROUPS;
 
-/// Light of the vertices summed over the light groups.
+/// Shader that sums over the light groups.
 pub(in crate::render) const WEIGHTED_LIGHT: Shader =
     shader!("weighted light", "shared/frame.wgsl", "stored_light/weighted_light.wgsl");
 
 /// Invocations of a compute group.
 const GROUP: u32 = 64;
-/// Compute groups in a row: what every device can dispatch.
+/// Most compute groups in a row that every device can dispatch.
 const MAX_ROW: u32 = 65_535;
 
-/// A vertex's direct and indirect irradiance.
+/// Direct and indirect irradiance of a vertex.
 type WeightedVertex = [Vec3; 2];
 
-/// The sum that a renderer shows.
+/// The sum that a renderer draws, and the pass that computes it.
 pub struct WeightedLight {
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
@@ -35,7 +41,7 @@ struct Sum {
     buffer: wgpu::Buffer,
 }
 
-/// What was summed.
+/// The light and the weights that were summed.
 #[derive(PartialEq)]
 struct Summed {
     light: LightVersion,
@@ -43,14 +49,14 @@ struct Summed {
 }
 
 impl WeightedLight {
-    /// The attributes of the vertex buffer: 4 direct and 5 indirect irradiance.
+    /// Attributes of the vertex buffer: 4 direct and 5 indirect irradiance.
     pub const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
         array_stride: size_of::<WeightedVertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,
         attributes: &wgpu::vertex_attr_array![4 => Float32x3, 5 => Float32x3],
     };
 
-    /// The pipeline, and nothing summed.
+    /// Creates the pipeline; nothing is summed yet.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         let layout = bind_group_layout(gpu);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -69,7 +75,7 @@ impl WeightedLight {
         Self { layout, pipeline, sum: None }
     }
 
-    /// The vertex buffer of a scene's light as `settings` and its `frame` weigh it.
+    /// The vertex buffer of the summed light of a scene. `frame` holds the weights of `settings`.
     pub fn of(
         &mut self,
         gpu: &Gpu,

@@ -1,11 +1,17 @@
 //! Where the direct light of a picture comes from, and the shader and bindings for each source.
+//!
+//! There are six shaders because constants, inputs and outputs of a shader are fixed when it is compiled: four sources of
+//! direct light, two of them with the stored light at the vertices or in tiles. The files are shared; a shader differs in its
+//! `varying` and its `direct` part only. Merging them would add unused inputs to every vertex, which a software driver
+//! writes and interpolates all the same. [`DirectSource::Few`] was designed for software rendering; it also serves hardware,
+//! where its gain is not measured.
 
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
 use crate::render::shadow::few_lights;
 use crate::render::shadow::real_time::DirectLight;
 
-/// Surface pass: radiance of each visible point.
+/// Light of the vertices.
 pub(in crate::render) const SURFACE: Shader = shader!(
     "surface",
     "shared/frame.wgsl",
@@ -17,7 +23,7 @@ pub(in crate::render) const SURFACE: Shader = shader!(
     "surface/pass.wgsl",
     "surface/direct_stored.wgsl"
 );
-/// Surface pass with the light of the vertices in tiles.
+/// Light of the vertices, in tiles.
 pub(in crate::render) const SURFACE_TILES: Shader = shader!(
     "surface, tiles",
     "shared/frame.wgsl",
@@ -29,7 +35,7 @@ pub(in crate::render) const SURFACE_TILES: Shader = shader!(
     "surface/pass.wgsl",
     "surface/direct_stored.wgsl"
 );
-/// Surface pass with direct irradiance from a texture with one sample a pixel.
+/// Direct irradiance from a texture with one sample a pixel.
 pub(in crate::render) const SURFACE_LIT: Shader = shader!(
     "surface lit",
     "shared/frame.wgsl",
@@ -41,7 +47,7 @@ pub(in crate::render) const SURFACE_LIT: Shader = shader!(
     "surface/pass.wgsl",
     "surface/direct_one.wgsl"
 );
-/// Surface pass with direct irradiance from a texture with several samples a pixel.
+/// Direct irradiance from a texture with several samples a pixel.
 pub(in crate::render) const SURFACE_LIT_SAMPLES: Shader = shader!(
     "surface lit samples",
     "shared/frame.wgsl",
@@ -53,7 +59,7 @@ pub(in crate::render) const SURFACE_LIT_SAMPLES: Shader = shader!(
     "surface/pass.wgsl",
     "surface/direct_many.wgsl"
 );
-/// Surface pass with the direct light of a few light samples.
+/// Direct light of a few light samples, which the pass adds itself.
 pub(in crate::render) const SURFACE_FEW_LIGHTS: Shader = shader!(
     "surface few lights",
     "shared/frame.wgsl",
@@ -100,7 +106,7 @@ pub enum DirectSource {
 }
 
 impl DirectSource {
-    /// Where it comes from with this light of the lights themselves.
+    /// The source for direct light from the lights themselves; `None` takes the vertices.
     pub fn of(live: Option<&DirectLight>) -> Self {
         match live {
             None => DirectSource::Stored,
@@ -110,7 +116,8 @@ impl DirectSource {
         }
     }
 
-    /// Surfaces are drawn as their coarse mesh has them: where no texture tells the light of pixels that the elements cover.
+    /// The coarse mesh can be drawn. With light from a texture it cannot: that light was found at the depths of the elements,
+    /// which must be equal to the last bit.
     pub fn shows_tiles(self) -> bool {
         self.tiled_shader().is_some()
     }

@@ -1,5 +1,9 @@
 //! Surface pass: the radiance that leaves every visible point towards the eye.
 //!
+//! ```text
+//! L = emission + rho / pi * (direct * E_direct + indirect * E_indirect)
+//! ```
+//!
 //! [`pass`] draws the scene with the pipelines of [`variant`] into the targets of [`targets`]; [`direct_source`] names the
 //! places that direct light comes from, each with a shader of its own.
 

@@ -1,4 +1,4 @@
-//! Surface pass: radiance of every visible point, with the light of the vertices.
+//! Surface pass: radiance of every visible point, in one draw a batch of one material.
 
 use super::direct_source::DirectSource;
 use super::recently_used::RecentlyUsed;
@@ -44,7 +44,7 @@ pub struct SurfacePass {
     /// The module for light in tiles, if this source of direct light can show tiles.
     tiled_module: Option<wgpu::ShaderModule>,
     samples: u32,
-    /// Those that were used last.
+    /// The pipelines that were used last.
     pipelines: RecentlyUsed<PipelineKey, wgpu::RenderPipeline>,
     /// Layout of bind group 1.
     light_layout: wgpu::BindGroupLayout,
@@ -56,7 +56,7 @@ pub struct SurfacePass {
     direct_layout: Option<wgpu::BindGroupLayout>,
 }
 
-/// Exposure as the light meter leaves it, one f32; the tiles of a coarse mesh and how they are sampled.
+/// Layout of bind group 1: metered exposure (one f32), tiles of a coarse mesh, and their sampler.
 fn light_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
     let exposure = wgpu::BindingType::Buffer {
@@ -192,7 +192,7 @@ impl SurfacePass {
         })
     }
 
-    /// The pipeline of a variant, made if it is not kept.
+    /// The pipeline of a variant, created if it is not kept.
     fn pipeline(&mut self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
         if let Some(kept) = self.pipelines.get(&key) {
             return kept.clone();

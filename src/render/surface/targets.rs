@@ -1,4 +1,4 @@
-//! What the surface pass draws into: radiance for all that comes after, or at once what the screen shows.
+//! Targets of the surface pass: radiance for the passes that follow, or display colours at once.
 
 use super::variant::Output;
 use crate::base::colour::srgb_from_linear;
@@ -6,24 +6,24 @@ use crate::gpu::Gpu;
 use crate::render::RenderSettings;
 use crate::render::targets::Targets;
 
-/// What is drawn into, all of one size.
+/// Textures that the surface pass draws into, all of one size.
 pub struct SurfaceTargets<'a> {
-    /// Radiance or what is displayed, as `output` says.
+    /// Radiance or display colours, by `output`.
     colour: &'a wgpu::TextureView,
-    /// Where the mean of the samples goes.
+    /// Receives the mean of the samples of each pixel.
     resolve: Option<&'a wgpu::TextureView>,
     /// Depth.
     depth: &'a wgpu::TextureView,
-    /// Luminance for the light meter, where `output` says so.
+    /// Luminance for the light meter, by `output`.
     luminance: Option<&'a wgpu::TextureView>,
-    /// What is drawn.
+    /// What the pass writes.
     pub output: Output,
-    /// Colour where nothing is seen.
+    /// Colour of pixels without a surface.
     background: wgpu::Color,
 }
 
 impl<'a> SurfaceTargets<'a> {
-    /// Radiance, with no light and no coverage where nothing is seen.
+    /// Radiance; pixels without a surface have no light and no coverage.
     pub fn radiance(targets: &'a Targets) -> Self {
         let (colour, resolve) = match &targets.samples {
             Some(samples) => (samples, Some(&targets.hdr_view)),
@@ -33,7 +33,7 @@ impl<'a> SurfaceTargets<'a> {
         Self { colour, resolve, depth: &targets.depth, luminance: None, output: Output::Radiance, background }
     }
 
-    /// What is displayed, with the background of `settings`, into a target of `format`.
+    /// Display colours into a target of `format`; pixels without a surface have the background of `settings`.
     pub fn display(
         target: &'a wgpu::TextureView,
         format: wgpu::TextureFormat,
@@ -52,7 +52,7 @@ impl<'a> SurfaceTargets<'a> {
         }
     }
 
-    /// The same, and luminance as the next picture's exposure needs it.
+    /// As [`Self::display`], with the luminance that the exposure of the next picture is metered from.
     pub fn display_and_luminance(
         gpu: &Gpu,
         target: &'a wgpu::TextureView,
@@ -64,7 +64,7 @@ impl<'a> SurfaceTargets<'a> {
         Self { luminance: Some(targets.luminance(gpu)), output, ..Self::display(target, format, targets, settings) }
     }
 
-    /// Begins a pass with nothing drawn, infinitely far.
+    /// Begins a pass that clears the targets; the depth is that of infinity.
     pub fn begin<'e>(&self, encoder: &'e mut wgpu::CommandEncoder) -> wgpu::RenderPass<'e> {
         let cleared = |view, resolve_target, colour| {
             let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(colour), store: wgpu::StoreOp::Store };

@@ -1,4 +1,4 @@
-//! Pipelines of the surface pass: one for each kind of surface and each way to show it, so that shaders have no branches.
+//! Pipelines of the surface pass: one for each kind of surface and each way to show it, so that shaders need no branches.
 
 use crate::gpu::Gpu;
 use crate::render::scene::draw_batch::{DrawBatch, Faces};
@@ -8,10 +8,11 @@ use crate::render::targets::{DEPTH_FORMAT, HDR_FORMAT, LUMINANCE_FORMAT};
 use crate::render::{RenderSettings, Shading, ToneMap};
 use crate::scene::AlphaMode;
 
-/// Colour is premultiplied and coverage adds up under it.
+/// Blends premultiplied colour; coverage adds up.
 const PREMULTIPLIED: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
 
-/// A mask's samples are solid, but their alpha is the coverage of the pixel: it must not thin what lies behind.
+/// Replaces colour and keeps the larger alpha: the samples of a mask are solid, and their alpha is the coverage of the pixel,
+/// which must not fade the surface behind.
 const KEEP_LARGER_ALPHA: wgpu::BlendState = wgpu::BlendState {
     color: wgpu::BlendComponent::REPLACE,
     alpha: wgpu::BlendComponent {
@@ -21,7 +22,7 @@ const KEEP_LARGER_ALPHA: wgpu::BlendState = wgpu::BlendState {
     },
 };
 
-/// A kind of alpha as a pipeline knows it.
+/// State of a pipeline for one alpha mode.
 struct AlphaVariant {
     label: &'static str,
     /// `ALPHA_MODE` of the shader.
@@ -48,14 +49,14 @@ const BLEND: AlphaVariant = AlphaVariant {
     to_coverage: false,
 };
 
-/// What is fixed when a pipeline is made.
+/// Everything that is fixed when a pipeline is created.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Variant {
     shading: Shading,
     alpha: Alpha,
     has_textures: bool,
     is_unlit: bool,
-    /// Another module.
+    /// Light is in tiles, which needs another shader module.
     pub is_tiled: bool,
     culls: bool,
     has_dark_back: bool,
@@ -68,13 +69,13 @@ pub struct Variant {
 pub enum Output {
     /// Radiance times pre-exposure, into [`HDR_FORMAT`].
     Radiance,
-    /// What the screen shows of it, into a format of the screen.
+    /// Display colours by this tone map, into this format.
     Display(wgpu::TextureFormat, ToneMap),
-    /// The same, and luminance times pre-exposure into [`LUMINANCE_FORMAT`].
+    /// The same, with luminance times pre-exposure into [`LUMINANCE_FORMAT`].
     DisplayAndLuminance(wgpu::TextureFormat, ToneMap),
 }
 
-/// How alpha acts.
+/// The alpha mode of a material, without its cut-off.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Alpha {
     Opaque,
@@ -83,7 +84,7 @@ enum Alpha {
 }
 
 impl Variant {
-    /// What a batch needs for a look.
+    /// The variant that draws a batch with these settings.
     pub fn new(batch: &DrawBatch, settings: &RenderSettings, output: Output) -> Self {
         Self {
             shading: settings.shading,

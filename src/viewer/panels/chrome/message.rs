@@ -79,8 +79,10 @@ pub fn trouble_ui(ctx: &egui::Context, trouble: &mut Option<Trouble>, actions: &
     let window = egui::Window::new(title).id(Id::unique("trouble")).collapsible(false).resizable(false);
     window.anchor(Align2::CENTER_CENTER, [0.0, 0.0]).default_width(520.0).show(ctx, |ui| {
         let text = RichText::new(&shown.text);
-        let text = if shown.is_code { text.monospace() } else { text };
-        ui.add(egui::Label::new(text).wrap().selectable(true));
+        // A quoted line of code and the mark below it must not be wrapped.
+        let label =
+            if shown.is_code { egui::Label::new(text.monospace()).extend() } else { egui::Label::new(text).wrap() };
+        ui.add(label.selectable(true));
         ui.add_space(6.0);
         if !shown.is_code {
             ui.label(RichText::new("Drop another .glb or .gltf file on the window, or choose one.").weak());
