@@ -1,8 +1,8 @@
-// Overlay: lines and tinted faces over a finished picture, hidden by what stands before them.
+// Overlay: lines and tinted faces over a finished picture, hidden by the surfaces before them.
 
 // The target's format encodes sRGB itself.
 override TARGET_ENCODES: bool = false;
-// Share of the way to the eye by which marks stand before their own surface; metres where the eye is infinitely far.
+// Shift of marks towards the eye, as a share of the distance; metres in an orthographic view.
 const LIFT: f32 = 1e-3;
 
 struct Varying {
@@ -17,7 +17,7 @@ fn solid(@location(0) position: vec3f) -> @builtin(position) vec4f {
     return frame.projection_from_world * vec4f(position, 1.0);
 }
 
-// The scene has been drawn already.
+// Colours of the scene are drawn already, so none is written.
 @fragment
 fn unseen() -> @location(0) vec4f {
     return vec4f(0.0);

@@ -1,14 +1,14 @@
-// From radiance to what the screen shows.
+// From radiance to display colours: tone curve, sRGB encoding, dither.
 
 const TONE_MAP_NEUTRAL: u32 = 0u;
 const TONE_MAP_LINEAR: u32 = 1u;
 // The target's format encodes sRGB itself.
 override TARGET_ENCODES: bool = false;
 
-// What a pixel of the target holds of a linear display colour.
+// The value of the target for a linear display colour.
 fn displayed(colour: vec3f, pixel: vec2f) -> vec4f {
     let encoded = srgb_from_linear(saturate(colour));
-    // Half a step of noise hides the steps of eight bits; a colour that is a step itself stays as it is.
+    // Noise of half a step hides the steps of eight bits; a colour that is exactly a step does not change.
     let dithered = saturate(encoded + gradient_noise(pixel) / 255.0);
     return vec4f(select(dithered, linear_from_srgb(dithered), TARGET_ENCODES), 1.0);
 }
@@ -21,8 +21,10 @@ fn tone_mapped(exposed: vec3f, tone_map: u32) -> vec3f {
     return neutral(exposed);
 }
 
-// Khronos PBR Neutral tone mapper (Khronos 2024), without the offset that takes away 4 % of mirror reflection: these
-// surfaces are diffuse and reflect none.
+// Khronos PBR Neutral tone mapper (Khronos 2024). Colours with the largest channel p < 0.8 are unchanged; else
+//   p' = 1 - 0.2^2 / (p - 0.6),   colour' = mix(colour p' / p, p', 1 - 1 / (1 + 0.15 (p - p'))),
+// which compresses highlights towards white without a change of hue. The offset of the specification, which removes the 4 %
+// that a dielectric mirrors, is left out: these surfaces are diffuse.
 fn neutral(colour: vec3f) -> vec3f {
     const START: f32 = 0.8;
     const DESATURATION: f32 = 0.15;
@@ -30,8 +32,8 @@ fn neutral(colour: vec3f) -> vec3f {
     if peak < START {
         return colour;
     }
-    // The new peak is numerator / over, the share of white 1 - over / divisor: brought to two quotients, for which software
-    // drivers take long.
+    // p' = numerator / over and the share of white is 1 - over / divisor, combined to two divisions, which are slow on a
+    // software driver.
     let room = 1.0 - START;
     let over = peak + room - START;
     let numerator = over - room * room;
@@ -40,7 +42,7 @@ fn neutral(colour: vec3f) -> vec3f {
     return (colour * over + DESATURATION * loss * peak) * (numerator / (peak * over)) * (1.0 / divisor);
 }
 
-// Interleaved gradient noise in -0.49..0.49: a hair less than half, so that rounding brings a whole step back
+// Interleaved gradient noise in -0.49..0.49: slightly less than half, so that rounding restores whole steps
 // (Jimenez 2014, "Next Generation Post Processing in Call of Duty").
 fn gradient_noise(pixel: vec2f) -> f32 {
     return fract(52.9829189 * fract(dot(floor(pixel), vec2f(0.06711056, 0.00583715)))) * 0.98 - 0.49;

@@ -2,7 +2,7 @@
 
 const LINE_WIDTH_PX: f32 = 1.3;
 
-// Place of an illuminance on the scale of the picture, 0..1 within it.
+// Position of an illuminance on the scale, 0..1 between its ends.
 fn place_on_scale(lux: f32) -> f32 {
     let low = frame.lux_scale.x;
     let high = frame.lux_scale.y;
@@ -14,7 +14,7 @@ fn place_on_scale(lux: f32) -> f32 {
 fn false_colour(lux: f32) -> vec3f {
     let place = place_on_scale(lux);
     let colour = linear_from_srgb(turbo(saturate(place)));
-    // Lines lie where the scale is cut into equal parts, its ends included.
+    // Lines divide the scale into equal parts, its ends included.
     let part = place * frame.lux_scale.w;
     let to_line = abs(fract(part - 0.5) - 0.5) / max(fwidth(part), 1e-6);
     let has_lines = frame.lux_scale.w > 0.0 && part > 0.5 && part < frame.lux_scale.w + 0.5;

@@ -1,12 +1,12 @@
-// Metering: an exposure that shows the picture neither too dark nor burnt out.
+// Light meter: the exposure of a picture from a histogram of its log2 luminance.
 //
-// A histogram of log2 luminance gives the log-average, which is placed at a middle grey (Reinhard et al. 2002,
-// "Photographic Tone Reproduction", eq. 1), unless that would push the brightest twentieth far beyond white.
+// The log-average is placed at middle grey (Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 1),
+// unless the brightest twentieth of the pixels would then exceed HIGHLIGHT times white.
 
 const NUM_BINS: u32 = 256u;
-// Every other pixel of every other row is enough, every fourth in a movement.
+// Distance of counted pixels: every other pixel of every other row is enough, every fourth in a movement.
 override STEP: u32 = 2u;
-// Luminances from 2^-20 to 2^20 are told apart; bin 0 holds what is darker, and is not counted as light.
+// The bins cover luminances from 2^-20 to 2^20. Bin 0 also holds darker pixels and does not count.
 const DARKEST: f32 = -20.0;
 const BINS_PER_STOP: f32 = 6.4;
 // Display luminance of the log-average.
@@ -15,7 +15,7 @@ const MIDDLE_GREY: f32 = 0.2;
 const HIGHLIGHT_SHARE: f32 = 0.95;
 const HIGHLIGHT: f32 = 1.5;
 
-// A picture of luminance alone, nothing where nothing is seen; else of radiance and coverage.
+// The picture holds luminance, 0 for pixels without a surface; else radiance and coverage.
 override IS_LUMINANCE: bool = false;
 
 @group(1) @binding(0) var hdr: texture_2d<f32>;
@@ -24,7 +24,7 @@ override IS_LUMINANCE: bool = false;
 
 var<workgroup> tile: array<atomic<u32>, NUM_BINS>;
 
-// Each group counts 16 x 16 pixels, then adds up: integer sums do not depend on order.
+// Each group counts 16 x 16 pixels and adds them to the histogram. Integer sums do not depend on the order.
 @compute @workgroup_size(16, 16)
 fn count(@builtin(global_invocation_id) invocation: vec3u, @builtin(local_invocation_index) local: u32) {
     let pixel = STEP * invocation.xy;

@@ -1,8 +1,8 @@
-// Tone mapping: radiance becomes a display colour, sample by sample, so that edges of bright lamps stay smooth.
+// Tone mapping pass: radiance to display colours, sample by sample, so that the edges of bright lamps stay smooth.
 
 @group(1) @binding(1) var<storage, read> metered_exposure: f32;
 
-// What is the same everywhere is handed to the pixels as shared/frame.wgsl explains.
+// Constants are passed to the pixels by the vertices, for the reasons in shared/frame.wgsl.
 struct Varying {
     @builtin(position) position: vec4f,
     // Displayed = hdr x exposure.
@@ -25,7 +25,7 @@ fn fragment(in: Varying) -> @location(0) vec4f {
     return displayed(pixel_colour(in), in.position.xy);
 }
 
-// Mean display colour of the samples; inside a surface they are alike and one is enough.
+// Mean display colour of the samples. Inside a surface all samples are equal, and one is enough.
 fn pixel_colour(in: Varying) -> vec3f {
     let pixel = vec2i(in.position.xy);
     let first = hdr_sample(pixel, 0u);

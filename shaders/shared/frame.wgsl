@@ -1,36 +1,37 @@
-// Bind group 0 of every pass: what one picture asks for. Written by src/render/frame_uniform.rs.
+// Bind group 0 of every pass: camera, exposure and weights of one picture. Written by src/render/frame_uniform.rs.
 //
-// No branch may depend on a uniform buffer: for the values of such uniforms lavapipe compiles the shader anew each time that
-// they are bound, and keeps what it has compiled. So choices lie in a storage buffer. Nothing of which derivatives are
-// taken may come from there: outside of triangles, where derivatives look, lavapipe loads zero.
-//
-// What pixels need of a uniform buffer they are handed by the vertices where that can be: of Mesa before 23, fragment
-// shaders load each number of it for each pixel anew, which takes as long as ten sums.
+// Three rules for lavapipe (Mesa 22.3), which cost hardware nothing:
+// 1. No branch depends on a uniform buffer. lavapipe compiles a shader again for each value of a uniform that branches
+//    depend on, and keeps every version. Choices lie in a storage buffer or are constants of the pipeline.
+// 2. No derivative is taken of a value that depends on storage. Derivatives also read pixels outside the triangle, for which
+//    lavapipe loads zero.
+// 3. Vertices pass to their pixels what pixels need of a uniform buffer, if possible. A fragment shader loads each number
+//    for each pixel again, which takes as long as ten additions.
 
 const MAX_GROUPS: u32 = 8u;
 
 struct Frame {
     projection_from_world: mat4x4f,
-    // Factor on the light of each group, rgb.
+    // Factor on the light of each group, rgb; the fourth channel is unused.
     group_weights: array<vec4f, MAX_GROUPS>,
-    // Radiance of an ideal white surface that is added everywhere.
+    // Radiance of white paint that is added everywhere.
     ambient: vec3f,
     // Factor on direct irradiance.
     direct: f32,
-    // Display colour, linear, where nothing is hit.
+    // Linear display colour of pixels without a surface.
     background: vec3f,
     // Factor on indirect irradiance.
     indirect: f32,
     // Power of two that keeps the scene's radiance within half floats; every HDR texture is scaled by it.
     pre_exposure: f32,
-    // Displayed = radiance x exposure; 0 asks for the metered one.
+    // Displayed = radiance x exposure; 0 selects the metered exposure.
     exposure: f32,
     num_vertices: u32,
-    // From irradiance of the lights themselves to the radiance of white paint.
+    // Factor from irradiance of the lights themselves to the radiance of white paint.
     live: f32,
     // Homogeneous: the eye with w = 1, or the direction towards it with w = 0.
     eye: vec4f,
-    // Ends of the scale of false colours in lux, whether it is logarithmic, and parts that lines cut it into.
+    // Scale of false colours: low and high end in lux, 1 if logarithmic, number of parts between lines.
     lux_scale: vec4f,
 }
 

@@ -1,10 +1,10 @@
-// The light of tiles: what white paint shows at each texel, linear in each element (src/baked/coarse/tiles.rs).
+// The light of tiles: the radiance of white paint at each texel, linear in each element (src/baked/coarse/tiles.rs).
 
 const NOTHING: u32 = 0xffffffffu;
 const PI: f32 = 3.14159265358979;
 // Largest value that a half float holds, with room for rounding.
 const LARGEST_HALF: f32 = 65000.0;
-// Direct light comes from the lights themselves and not from here.
+// Direct light comes from the lights themselves, so tiles hold none.
 override LIT_BY_LIGHTS: bool = false;
 
 struct Element {
@@ -47,7 +47,7 @@ fn fill(@builtin(global_invocation_id) invocation: vec3u) {
     }
 }
 
-// Beyond a long side light goes on as the three texels before it do: it is linear between the two that lie on the side.
+// Extrapolates the texels beyond a long side from the three before them, so that bilinear reads on the side are exact.
 @compute @workgroup_size(64)
 fn fill_beyond(@builtin(global_invocation_id) invocation: vec3u) {
     if invocation.x >= arrayLength(&beyond) {
@@ -67,7 +67,7 @@ fn storable(radiance: vec3f) -> vec3f {
     return clamp(radiance, vec3f(-LARGEST_HALF), vec3f(LARGEST_HALF));
 }
 
-// At a texel that has an element.
+// Radiance at a texel that has an element.
 fn radiance_of(texel: vec2u) -> vec3f {
     let element = elements[element_of[texel.y * textureDimensions(light).x + texel.x]];
     let a = vec2f(unpacked(element.corners[0]));

@@ -1,7 +1,6 @@
-// The light of each vertex summed over the light groups, each weighted as the picture wants it.
+// The light of each vertex, summed over the light groups with their weights.
 //
-// The sum changes when a lamp is dimmed or a bake renews the light, not with the eye: src/render/stored_light/weighted_light.rs keeps
-// it.
+// The sum changes when a lamp is dimmed or the light is written, but not with the camera: weighted_light.rs keeps it.
 
 // Irradiance of the vertices: [2 x group + (0 direct, 1 indirect)][vertex], three floats each.
 @group(1) @binding(0) var<storage, read> irradiance: array<f32>;

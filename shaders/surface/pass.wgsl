@@ -2,10 +2,10 @@
 //
 //   L = emission + rho / pi x sum over groups of weight x (direct x E_direct + indirect x E_indirect)
 //
-// Irradiance E was summed over the groups at the vertices (shaders/stored_light/weighted_light.wgsl) and is interpolated; rho and
-// emission are read per pixel, so textures stay sharp. What is linear in a triangle is found at its vertices.
+// Irradiance E is summed over the groups at the vertices (shaders/stored_light/weighted_light.wgsl) and interpolated; rho and
+// emission are read for each pixel, so textures stay sharp. Whatever is linear in a triangle is computed at its vertices.
 
-// What is shown, fixed when a pipeline is made.
+// What is shown of surfaces; a pipeline each.
 const SHADING_LIT: u32 = 0u;
 const SHADING_IRRADIANCE_ONLY: u32 = 1u;
 const SHADING_ALBEDO: u32 = 2u;
@@ -16,21 +16,20 @@ override SHADING: u32 = SHADING_LIT;
 const PI: f32 = 3.14159265358979;
 // Largest value that a half float holds, with room for rounding.
 const LARGEST_HALF: f32 = 65000.0;
-// Direct light comes from the lights themselves (shaders/shadow/light/direct_light.wgsl) and not from the vertices.
+// Direct light comes from the lights themselves and not from the vertices.
 override LIT_BY_LIGHTS: bool = false;
-// The target shows the radiance under the exposure that is given or was metered last, by this tone map; else it holds the
-// radiance itself.
+// The target receives display colours, under the given or last metered exposure and by TONE_MAP; else radiance.
 override DISPLAYS: bool = false;
 override TONE_MAP: u32 = TONE_MAP_NEUTRAL;
 // The back of a single-sided surface blocks light and sends none.
 override HAS_DARK_BACK: bool = false;
-// The base colour is shown as it is.
+// The base colour is shown without light (KHR_materials_unlit).
 override IS_UNLIT: bool = false;
 // Metals reflect their base colour diffusely.
 override METAL_AS_DIFFUSE: bool = true;
 
 @group(1) @binding(0) var<storage, read> metered_exposure: f32;
-// Light of the vertices, where it lies in tiles (shaders/stored_light/light_tiles.wgsl).
+// Light of the vertices in tiles (shaders/stored_light/light_tiles.wgsl); a placeholder if there are none.
 @group(1) @binding(1) var tiles: texture_2d<f32>;
 @group(1) @binding(2) var between_texels: sampler;
 
@@ -39,13 +38,13 @@ struct Vertex {
     @location(1) normal: vec3f,
     @location(2) uv: vec4f,
     @location(3) colour: vec4f,
-    // Irradiance, summed over the light groups. Where light lies in tiles: where, as its own coordinates in the tile, between 0
-    // and 1, its first texel and its width, both in shares of the texture.
+    // Irradiance, summed over the light groups. With light in tiles instead: coordinates in the tile (0..1), and the first
+    // texel and the width of the tile, both as shares of the texture.
     @location(4) direct: vec3f,
     @location(5) indirect: vec3f,
 }
 
-// What every surface hands to its pixels.
+// What the vertices of every surface pass to its pixels.
 fn surface_varying(in: Vertex) -> Varying {
     var out: Varying;
     out.position = frame.projection_from_world * vec4f(in.position, 1.0);
@@ -58,8 +57,8 @@ fn surface_varying(in: Vertex) -> Varying {
     return out;
 }
 
-// The radiance of white paint, its place in a tile, or instead of light the normal: no location is without use, since software
-// drivers write them all.
+// The radiance of white paint, its place in a tile, or the normal if no light is shown. They share a location because
+// a software driver writes every one.
 fn handed_light(in: Vertex) -> vec4f {
     if SHADING == SHADING_NORMALS {
         return vec4f(in.normal, 0.0);
@@ -67,13 +66,13 @@ fn handed_light(in: Vertex) -> vec4f {
     if IS_TILED {
         return vec4f(in.direct, in.indirect.x);
     }
-    // Surfaces that blend stay with the stored light.
+    // Surfaces that blend keep the stored light.
     let direct = select(frame.direct, 0.0, LIT_BY_LIGHTS && ALPHA_MODE != ALPHA_BLEND);
     let irradiance = direct * in.direct + frame.indirect * in.indirect;
     return vec4f(light_scale() * (frame.ambient + irradiance / PI), 0.0);
 }
 
-// Light is scaled by pre-exposure, other things are as they are.
+// Factor on shaded colours: pre-exposure if they are light.
 fn light_scale() -> f32 {
     return select(1.0, frame.pre_exposure, shows_light());
 }
@@ -82,7 +81,7 @@ fn shows_light() -> bool {
     return SHADING == SHADING_LIT || SHADING == SHADING_IRRADIANCE_ONLY;
 }
 
-// From what is shaded to what the target holds or displays.
+// Factor from shaded colours to the target.
 fn target_scale() -> f32 {
     let exposure = select(metered_exposure, frame.exposure, frame.exposure > 0.0);
     let scale = select(frame.pre_exposure, exposure, DISPLAYS);
@@ -91,12 +90,12 @@ fn target_scale() -> f32 {
 
 struct Shown {
     @location(0) colour: vec4f,
-    // What a light meter sees: luminance scaled by pre-exposure.
+    // For the light meter: luminance scaled by pre-exposure.
     @location(1) luminance: f32,
 }
 
-// What the targets are given of a fragment that receives `direct`, irradiance scaled by pre-exposure, beside the light of the
-// vertices.
+// The values of the targets for a fragment that receives `direct`, irradiance scaled by pre-exposure, in addition to the
+// light of the vertices.
 fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> Shown {
     let base = base_colour(in.colour, in.base_and_metallic_uv.xy);
     let coverage = coverage(base.a);
@@ -110,16 +109,16 @@ fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> Shown {
         return Shown(displayed, min(luminance(shown), LARGEST_HALF));
     }
     let stored = min(scaled, vec3f(LARGEST_HALF));
-    // Blending is premultiplied; coverage of a mask acts through the samples instead.
+    // Blending is premultiplied. The coverage of a mask acts through the samples instead.
     return Shown(vec4f(select(stored, stored * coverage, ALPHA_MODE == ALPHA_BLEND), coverage), 0.0);
 }
 
-// What white paint shows in the light of the vertices.
+// Radiance of white paint in the light of the vertices.
 fn stored_radiance(in: Varying) -> vec3f {
     if !IS_TILED {
         return max(in.light.rgb, vec3f(0.0));
     }
-    // Beside the triangle, where the middle of a pixel on its edge may be, lies another tile.
+    // The centre of a pixel on an edge may lie beside the triangle, where another tile begins.
     let clamped = clamp(in.light.xy, vec2f(0.0), vec2f(1.0));
     let place = clamped - 0.5 * max(clamped.x + clamped.y - 1.0, 0.0);
     let texel = in.light.zw + in.emissive_uv_and_scales.w * place;
@@ -127,7 +126,7 @@ fn stored_radiance(in: Varying) -> vec3f {
     return select(radiance / frame.pre_exposure, radiance, shows_light());
 }
 
-// What white paint shows of it.
+// Radiance of white paint in the direct light of the lights themselves.
 fn direct_radiance(direct: vec3f) -> vec3f {
     if !LIT_BY_LIGHTS || ALPHA_MODE == ALPHA_BLEND {
         return vec3f(0.0);
@@ -138,7 +137,7 @@ fn direct_radiance(direct: vec3f) -> vec3f {
     return direct * frame.live;
 }
 
-// Light is scaled by pre-exposure.
+// Colour of the fragment; light is scaled by pre-exposure.
 fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
     let metallic = metallic(in.emission_and_metallic.w, in.base_and_metallic_uv.zw);
     let emission = emission(in.emission_and_metallic.xyz, in.emissive_uv_and_scales.xy);

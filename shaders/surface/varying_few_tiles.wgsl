@@ -1,21 +1,21 @@
-// Surface pass: what vertices hand to pixels that add the direct light of a few light samples to light in tiles.
+// Surface pass: what vertices pass to pixels that add the direct light of a few light samples to light in tiles.
 
 const IS_TILED: bool = true;
 
 struct Varying {
     @builtin(position) @invariant position: vec4f,
     @location(0) @interpolate(perspective, centroid) normal: vec3f,
-    // Of vertex and material.
+    // Base colour of vertex times material.
     @location(1) colour: vec4f,
     @location(2) base_and_metallic_uv: vec4f,
     @location(3) emissive_uv_and_scales: vec4f,
-    // Where the light lies in a tile. Not at the centroid: of that lavapipe scales even what is constant.
+    // Place of the light in a tile. Not at the centroid, where lavapipe (Mesa 22.3) scales even constants.
     @location(4) light: vec4f,
-    // Of the material where it has no textures.
+    // Emission and metallic factor of the material, before textures.
     @location(5) @interpolate(flat) emission_and_metallic: vec4f,
     // Metres, world space.
     @location(6) @interpolate(perspective, centroid) point: vec3f,
-    // As in shared/lit_point.wgsl, in the space of each light.
+    // Position at the pixel centre and shading normal, in the space of each light.
     @location(7) middle_0: vec3f,
     @location(8) normal_0: vec3f,
     @location(9) middle_1: vec3f,

@@ -1,16 +1,16 @@
-// Surface pass: what vertices hand to pixels whose light lies in tiles.
+// Surface pass: what vertices pass to pixels whose light is in tiles.
 
 const IS_TILED: bool = true;
 
 struct Varying {
     @builtin(position) @invariant position: vec4f,
-    // Of vertex and material.
+    // Base colour of vertex times material.
     @location(1) colour: vec4f,
     @location(2) base_and_metallic_uv: vec4f,
     @location(3) emissive_uv_and_scales: vec4f,
-    // Where the light lies in a tile. Not at the centroid: of that lavapipe scales even what is constant.
+    // Place of the light in a tile. Not at the centroid, where lavapipe (Mesa 22.3) scales even constants.
     @location(4) light: vec4f,
-    // Of the material where it has no textures.
+    // Emission and metallic factor of the material, before textures.
     @location(5) @interpolate(flat) emission_and_metallic: vec4f,
 }
 

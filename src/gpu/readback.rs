@@ -92,7 +92,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn half_floats_have_their_value() {
+    fn half_floats_are_decoded() {
         let known = [(0x0000, 0.0), (0x3c00, 1.0), (0xc000, -2.0), (0x7bff, 65504.0), (0x0001, 5.960_464_5e-8)];
         for (bits, value) in known {
             assert_eq!(f32_from_half(bits), value, "{bits:#x}");

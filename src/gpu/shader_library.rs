@@ -126,7 +126,7 @@ mod tests {
     }
 
     #[test]
-    fn a_changed_file_is_taken_by_all_shaders_that_hold_it() {
+    fn a_changed_file_changes_all_shaders_that_contain_it() {
         let (library, folder) = library();
         assert_eq!([SHADER, OTHER].map(|shader| library.text_of(shader)), [SHADER.source(), OTHER.source()]);
         assert_eq!(library.reload(), Ok(false), "nothing was written");
@@ -136,7 +136,7 @@ mod tests {
     }
 
     #[test]
-    fn a_broken_file_keeps_the_old_text_and_is_named_and_a_mended_one_is_taken() {
+    fn a_broken_file_is_reported_and_not_used_until_it_is_mended() {
         let (library, folder) = library();
         assert_eq!([SHADER, OTHER].map(|shader| library.text_of(shader)), [SHADER.source(), OTHER.source()]);
         write(&folder, "a.wgsl", "const A: f32 = 2.0;\n");
@@ -150,7 +150,7 @@ mod tests {
     }
 
     #[test]
-    fn a_shader_that_comes_into_use_later_falls_back_on_the_built_in_text() {
+    fn an_invalid_file_of_a_new_shader_is_replaced_by_the_built_in_text() {
         let (library, folder) = library();
         write(&folder, "b.wgsl", "no WGSL");
         assert_eq!(library.text_of(SHADER), SHADER.source());

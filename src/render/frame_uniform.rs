@@ -116,7 +116,7 @@ mod tests {
     use std::mem::offset_of;
 
     #[test]
-    fn the_uniform_lies_as_the_shader_reads_it() {
+    fn the_layout_of_the_uniform_is_that_of_the_shader() {
         macro_rules! offsets {
             ($($field:ident),+) => { vec![$(offset_of!(FrameUniform, $field)),+, size_of::<FrameUniform>()] };
         }

@@ -95,7 +95,7 @@ mod tests {
     }
 
     #[test]
-    fn depth_is_one_near_and_falls_to_zero() {
+    fn depth_falls_from_one_at_the_near_plane_to_zero() {
         let camera = Camera::looking_at("test", Vec3::new(1.0, 2.0, 3.0), Vec3::new(1.0, 2.0, 0.0), 1.0);
         let view = View::from_camera(&camera, 1.5);
         let at = |distance| depth(&view, Vec3::new(1.0, 2.0, 3.0 - distance));
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn orthographic_depth_is_reversed_too_and_height_is_kept() {
+    fn orthographic_depth_is_reversed_too_and_the_height_is_that_of_the_camera() {
         let mut camera = Camera::looking_at("test", Vec3::ZERO, Vec3::NEG_Z, 1.0);
         camera.projection = Projection::Orthographic { half_height: 2.0 };
         let view = View::from_camera(&camera, 1.0);

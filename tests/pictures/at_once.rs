@@ -1,4 +1,4 @@
-//! Pictures that the surface pass displays at once, against those that are made of radiance.
+//! Display colours written by the surface pass, compared with those of radiance and tone map pass.
 
 use std::sync::Arc;
 
@@ -18,7 +18,7 @@ use crate::support::screen::displayed;
 
 const SIZE: [u32; 2] = [160, 90];
 
-/// How many pixels differ by more than a step of eight bits, and how many are neither black nor white.
+/// Number of pixels that differ by more than a step of eight bits, and number of pixels that are neither black nor white.
 fn compare(gpu: &Gpu, scene: &Scene, settings: &RenderSettings) -> [usize; 2] {
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
     let buffers = SceneBuffers::new(gpu, &BakedScene::new(scene.clone(), light));
@@ -36,7 +36,7 @@ fn compare(gpu: &Gpu, scene: &Scene, settings: &RenderSettings) -> [usize; 2] {
 }
 
 #[test]
-fn what_is_displayed_at_once_is_what_is_made_of_radiance() {
+fn display_colours_of_the_surface_pass_equal_those_of_the_tone_map_pass() {
     let Some(gpu) = gpu() else { return };
     let gallery = builtin::gallery();
     let plain = RenderSettings { exposure: Exposure::Ev(1.0), ambient: Vec3::splat(0.2), ..RenderSettings::default() };
@@ -62,7 +62,7 @@ fn what_is_displayed_at_once_is_what_is_made_of_radiance() {
 }
 
 #[test]
-fn glass_is_mixed_before_it_is_tone_mapped() {
+fn glass_is_blended_before_tone_mapping() {
     let Some(gpu) = gpu() else { return };
     let mut scene = builtin::gallery();
     for material in &mut scene.materials {
@@ -75,7 +75,7 @@ fn glass_is_mixed_before_it_is_tone_mapped() {
 }
 
 #[test]
-fn pictures_of_a_movement_settle_on_the_exposure_that_suits_them() {
+fn pictures_of_a_movement_converge_to_their_own_exposure() {
     let Some(gpu) = gpu() else { return };
     let scene = builtin::gallery();
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());

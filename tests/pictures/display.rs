@@ -1,4 +1,4 @@
-//! What is shown of radiance: exposure, metering, dither, background.
+//! From radiance to display colours: exposure, metering, dither, background.
 
 use std::f32::consts::PI;
 
@@ -58,7 +58,7 @@ fn metering_protects_highlights_and_ignores_the_background() {
 }
 
 #[test]
-fn dithering_hides_steps_but_leaves_whole_steps_alone() {
+fn dithering_hides_steps_and_keeps_values_that_are_whole_steps() {
     let mut quads = Quads::square(paint(Vec3::ONE), Vec3::ZERO);
     quads.light(GroupId(0), |p| Vec3::splat(PI * (0.20 + 0.005 * p.x)), |_| Vec3::ZERO);
     let Some(ramp) = draw(&quads, &plain()) else { return };
@@ -71,7 +71,7 @@ fn dithering_hides_steps_but_leaves_whole_steps_alone() {
 }
 
 #[test]
-fn background_is_a_display_colour_and_sends_no_radiance() {
+fn the_background_is_a_display_colour_without_radiance() {
     let settings = RenderSettings { background: Vec3::new(1.0, 0.0, 1.0), exposure: Exposure::Ev(-8.0), ..plain() };
     let Some(picture) = draw(&Quads::with_groups(1), &settings) else { return };
     assert_eq!(display_at(&picture, 5, 5), [255, 0, 255]);
@@ -110,7 +110,7 @@ fn edges_of_lamps_are_smooth_on_the_display() {
 }
 
 #[test]
-fn a_target_that_encodes_srgb_shows_the_same() {
+fn a_target_that_encodes_srgb_holds_the_same_colours() {
     let Some(gpu) = gpu() else { return };
     let quads = four_texels();
     let [plain_target, encoding_target] =
@@ -121,7 +121,7 @@ fn a_target_that_encodes_srgb_shows_the_same() {
 }
 
 #[test]
-fn two_pictures_in_one_submission_keep_their_own_look() {
+fn two_pictures_in_one_submission_keep_their_own_settings() {
     let Some(gpu) = gpu() else { return };
     let bytes = draw_two_into(gpu, TextureFormat::Rgba8Unorm, &four_texels());
     let (first, second) = bytes.split_at(bytes.len() / 2);

@@ -1,4 +1,4 @@
-//! Pictures as files, and a room as it looked before.
+//! Pictures as files, and a room compared with its snapshot.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::support::quads::{Quads, paint};
 use crate::support::snapshot::assert_snapshot;
 
 #[test]
-fn files_hold_what_the_picture_holds() {
+fn files_contain_the_values_of_the_picture() {
     let Some(picture) = draw(&four_texels(), &plain()) else { return };
     let folder = tempfile::tempdir().expect("a folder");
     let (png, exr) = (folder.path().join("a.png"), folder.path().join("a.EXR"));
@@ -26,7 +26,7 @@ fn files_hold_what_the_picture_holds() {
 }
 
 #[test]
-fn a_file_that_cannot_be_written_or_read_is_named() {
+fn an_error_names_the_file_that_cannot_be_written_or_read() {
     let Some(picture) = draw(&four_texels(), &plain()) else { return };
     let nowhere = Path::new("/no/such/folder/a.png");
     let messages = [picture.save(nowhere).expect_err("no folder"), Raster::load(nowhere).expect_err("no file")];
@@ -55,7 +55,7 @@ fn room() -> Quads {
 }
 
 #[test]
-fn a_room_looks_as_it_did() {
+fn a_room_equals_its_snapshot() {
     let Some(gpu) = gpu() else { return };
     let camera = Camera::looking_at("room", Vec3::new(0.3, 0.2, 4.2), Vec3::ZERO, 0.65);
     let scene = SceneBuffers::new(gpu, &room().baked);
@@ -64,7 +64,7 @@ fn a_room_looks_as_it_did() {
 }
 
 #[test]
-fn the_processor_shows_light_as_the_gpu_does() {
+fn tone_mapping_on_the_cpu_equals_that_on_the_gpu() {
     // From dark to far beyond white, in colour, and a corner where nothing is.
     let mut quads = Quads::with_groups(1);
     let material = quads.material(paint(Vec3::new(0.9, 0.6, 0.3)));

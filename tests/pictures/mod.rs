@@ -1,4 +1,4 @@
-//! Pictures that the GPU draws, held against what they must show.
+//! Pictures that the GPU draws, compared with known answers.
 
 mod at_once;
 mod display;

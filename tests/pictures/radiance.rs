@@ -25,7 +25,7 @@ fn a_surface_sends_reflectance_times_irradiance_over_pi_plus_emission() {
 }
 
 #[test]
-fn all_of_a_square_is_covered_and_nothing_beyond() {
+fn exactly_the_pixels_of_a_square_are_covered() {
     let quads = Quads::square(paint(Vec3::ONE), Vec3::splat(PI));
     let Some(gpu) = gpu() else { return };
     let mut wide = square_camera();
@@ -54,7 +54,7 @@ fn four_lights() -> Quads {
 }
 
 #[test]
-fn the_picture_is_linear_in_every_part_of_the_light() {
+fn radiance_is_linear_in_every_part_of_the_light() {
     let quads = four_lights();
     let Some(all) = centre(&quads, &plain()) else { return };
     assert_close(all, Vec3::splat(15.0));
@@ -69,7 +69,7 @@ fn the_picture_is_linear_in_every_part_of_the_light() {
 }
 
 #[test]
-fn a_dimmed_group_dims_the_glow_of_its_lamps() {
+fn a_dimmed_group_dims_the_emission_of_its_lamps() {
     let lamp = Material { emission: Vec3::ONE, group: Some(GroupId(0)), ..paint(Vec3::ONE) };
     let quads = Quads::square(lamp, Vec3::ZERO);
     let settings = RenderSettings { group_weights: vec![Vec3::new(0.5, 0.25, 0.0)], ..plain() };

@@ -14,13 +14,13 @@ use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, square_camera};
 use crate::support::screen::displayed;
 
-/// Display value of the middle, red, of one picture after the other by the same renderer.
+/// Display value of the red channel in the middle of a picture.
 fn red(gpu: &Gpu, renderer: &mut Renderer, scene: &SceneBuffers, settings: &RenderSettings) -> u8 {
     displayed(gpu, renderer, &PictureRequest::new(scene, &square_camera(), [SIZE; 2], settings))
         [(4 * (SIZE * SIZE / 2 + SIZE / 2)) as usize]
 }
 
-/// White paint whose group `group` alone brings radiance 0.5, half of it direct.
+/// White paint with radiance 0.5 from the group `group` alone, half of it direct.
 fn lit_by(num_groups: usize, group: usize) -> Quads {
     let mut quads = Quads::with_groups(num_groups);
     let white = quads.material(paint(Vec3::ONE));
@@ -33,7 +33,7 @@ fn lit_by(num_groups: usize, group: usize) -> Quads {
 }
 
 #[test]
-fn light_that_was_dimmed_or_renewed_is_seen_in_the_next_picture() {
+fn the_next_picture_shows_light_that_was_dimmed_or_written_again() {
     let Some(gpu) = gpu() else { return };
     const HALF: u8 = 188;
     const QUARTER: u8 = 137;

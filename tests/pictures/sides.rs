@@ -38,7 +38,7 @@ fn masks_have_holes_with_and_without_multisampling() {
 }
 
 #[test]
-fn blended_surfaces_let_the_rest_through() {
+fn blended_surfaces_let_the_rest_of_the_light_through() {
     let Some(picture) = draw(&window(AlphaMode::Blend, 51), &plain()) else { return };
     assert_close(radiance_at(&picture, 16, 16), Vec3::new(1.0, 0.2, 0.2));
     assert_close(radiance_at(&picture, 48, 16), Vec3::ONE);
@@ -67,7 +67,7 @@ fn middle(quads: &Quads, settings: &RenderSettings) -> Option<[f32; 2]> {
 }
 
 #[test]
-fn backs_are_invisible_or_black_or_a_second_face() {
+fn a_back_is_culled_or_black_or_a_second_face() {
     let single = from_behind(paint(Vec3::ONE));
     let double = from_behind(Material { double_sided: true, ..paint(Vec3::ONE) });
     let solid = RenderSettings { cull_back: false, ..plain() };

@@ -1,4 +1,4 @@
-//! A square seen face on, and what its picture holds.
+//! A square seen from the front, and access to its pixels.
 
 use std::f32::consts::PI;
 
@@ -12,7 +12,7 @@ use crate::support::quads::{Quads, paint, slot, square_camera, texture};
 
 pub const SIZE: u32 = 64;
 
-/// Radiance shown as it is.
+/// Settings that display radiance without exposure or tone map.
 pub fn plain() -> RenderSettings {
     RenderSettings {
         exposure: Exposure::Ev(0.0),
@@ -23,7 +23,7 @@ pub fn plain() -> RenderSettings {
     }
 }
 
-/// The square seen face on, without multisampling.
+/// Draws the square from the front with one sample a pixel.
 pub fn draw(quads: &Quads, settings: &RenderSettings) -> Option<Picture> {
     let gpu = gpu()?;
     let scene = SceneBuffers::new(gpu, &quads.baked);
@@ -50,7 +50,7 @@ pub fn assert_close(found: Vec3, expected: Vec3) {
     assert_within(1e-3, found, expected);
 }
 
-/// Equal to a share of the largest channel.
+/// Asserts that colours are equal within a share of the largest channel.
 #[track_caller]
 pub fn assert_within(tolerance: f32, found: Vec3, expected: Vec3) {
     let largest = expected.abs().max_element().max(1e-3);

@@ -1,4 +1,4 @@
-//! Textures: where they lie, and how they are averaged.
+//! Textures: orientation, coordinates, and averages.
 
 use std::f32::consts::PI;
 
@@ -15,7 +15,7 @@ fn textures_stand_upright() {
 }
 
 #[test]
-fn texture_transform_and_coordinate_set_are_followed() {
+fn texture_transform_and_coordinate_set_are_applied() {
     let mut quads = four_texels();
     let scene = &mut quads.baked.scene;
     for vertex in &mut scene.vertices {
@@ -50,7 +50,7 @@ fn textures_agree_with_the_transport_of_the_same_material() {
 }
 
 #[test]
-fn fine_textures_average_in_linear_light() {
+fn fine_textures_are_averaged_in_linear_light() {
     let mut quads = Quads::square(Material { base_colour_texture: Some(slot(0)), ..paint(Vec3::ONE) }, Vec3::splat(PI));
     let board: Vec<[u8; 4]> = (0..256 * 256).map(|i| [if (i + i / 256) % 2 == 0 { 255 } else { 0 }; 4]).collect();
     quads.baked.scene.textures.push(texture(256, &board));

@@ -1,4 +1,4 @@
-//! Pictures of a coarse mesh with its light in tiles, against those of the elements with light at their vertices.
+//! Pictures of a coarse mesh with light in tiles, compared with pictures of the elements with light at their vertices.
 
 use std::sync::Arc;
 
@@ -19,7 +19,7 @@ use crate::support::screen::displayed;
 
 const SIZE: [u32; 2] = [160, 90];
 
-/// The Cornell box in small elements, in light that waves.
+/// The Cornell box in small elements, with light that varies like a wave.
 fn waving() -> BakedScene {
     let scene = builtin::cornell();
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.2, patch_size: 1.0 }).expect("a mesh");
@@ -57,7 +57,7 @@ fn both(gpu: &Gpu, baked: &BakedScene, camera: &Camera, settings: &RenderSetting
 }
 
 #[test]
-fn tiles_look_like_the_elements_that_they_are_of() {
+fn tiles_look_like_the_elements_that_they_replace() {
     let Some(gpu) = gpu() else { return };
     let baked = waving();
     let lit = RenderSettings { exposure: Exposure::Ev(-1.0), ..RenderSettings::default() };
@@ -90,7 +90,7 @@ fn tiles_look_like_the_elements_that_they_are_of() {
 }
 
 #[test]
-fn an_instance_that_is_hidden_has_no_tiles_in_the_picture() {
+fn the_tiles_of_a_hidden_instance_are_not_drawn() {
     let Some(gpu) = gpu() else { return };
     let baked = waving();
     let camera = &baked.scene.cameras[0];
@@ -108,7 +108,7 @@ fn an_instance_that_is_hidden_has_no_tiles_in_the_picture() {
 }
 
 #[test]
-fn tiles_follow_light_that_is_written_anew_or_weighed_otherwise() {
+fn tiles_are_filled_again_after_new_light_or_new_weights() {
     let Some(gpu) = gpu() else { return };
     let mut baked = waving();
     let camera = baked.scene.cameras[0].clone();

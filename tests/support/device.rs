@@ -13,7 +13,7 @@ static GPU: LazyLock<Option<Gpu>> = LazyLock::new(|| match Gpu::headless() {
     }
 });
 
-/// The one device that all tests share; none on a desk without adapter, where the test is to return. Fails where the
+/// The device that all tests share; `None` on a machine without an adapter, where the test returns. Panics instead if the
 /// environment variable CI is set.
 pub fn gpu() -> Option<&'static Gpu> {
     GPU.as_ref()

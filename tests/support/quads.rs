@@ -12,12 +12,12 @@ pub fn paint(colour: Vec3) -> Material {
     Material::diffuse(colour)
 }
 
-/// A texture slot on coordinate set 0 as it is.
+/// A texture slot on coordinate set 0 without a transform.
 pub fn slot(texture: usize) -> TextureSlot {
     TextureSlot { texture: TextureId::new(texture), uv_set: 0, transform: Affine2::IDENTITY }
 }
 
-/// A texture of `width` texels a row that repeats; nearest, so that each texel is a sharp square.
+/// A repeating texture of `width` texels a row; it is not filtered, so that each texel is a sharp square.
 pub fn texture(width: u32, rgba: &[[u8; 4]]) -> Texture {
     let image = Image {
         name: "test".to_owned(),
@@ -69,8 +69,8 @@ impl Quads {
         MaterialId::new(self.baked.scene.materials.len() - 1)
     }
 
-    /// A parallelogram with its front towards `u` x `v`; texture coordinates as glTF has them, (0, 0) at the top left
-    /// for one who looks at the front with `v` up.
+    /// A parallelogram with its front towards `u` x `v`; texture coordinates are those of glTF, (0, 0) at the top left of
+    /// the front with `v` up.
     pub fn quad(&mut self, origin: Vec3, u: Vec3, v: Vec3, material: MaterialId) -> &mut Self {
         let scene = &mut self.baked.scene;
         let first = scene.vertices.len() as u32;
@@ -86,7 +86,7 @@ impl Quads {
         self
     }
 
-    /// Sets the light of one group at all vertices, by their position; to be called when all quads are there.
+    /// Sets the light of one group at all vertices, by their position. Call it after the last quad was added.
     pub fn light(&mut self, group: GroupId, direct: impl Fn(Vec3) -> Vec3, indirect: impl Fn(Vec3) -> Vec3) {
         let positions = || self.baked.scene.vertices.iter().map(|vertex| vertex.position);
         self.baked.light.groups[group.index()] =

@@ -24,7 +24,7 @@ pub fn furnace(reflectance: Vec3, exitance: Vec3) -> Scene {
     with_groups(builder.build(), 1)
 }
 
-/// A closed room of seven blocks that stand, lean and overlap by chance, lit by its ceiling.
+/// A closed room with seven blocks at random positions and angles, lit by its ceiling.
 pub fn cluttered_room(seed: u32) -> Scene {
     let mut builder = SceneBuilder::default();
     let grey = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));

@@ -1,4 +1,4 @@
-//! What stands for the screen: a texture that pictures are displayed in.
+//! A texture in place of the screen.
 
 use hemicube::gpu::Gpu;
 use hemicube::gpu::readback::read_texture;

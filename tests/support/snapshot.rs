@@ -1,18 +1,18 @@
 //! Pictures compared with stored ones in tests/snapshots.
 //!
-//! `UPDATE_SNAPSHOTS=1 cargo test` writes them anew. A failed comparison leaves NAME.new.png and NAME.diff.png there.
+//! `UPDATE_SNAPSHOTS=1 cargo test` replaces them. A failed comparison writes NAME.new.png and NAME.diff.png there.
 
 use std::path::{Path, PathBuf};
 
 use hemicube::render::compare::is_perceptible;
 use hemicube::render::{Difference, Picture, Raster, compare};
 
-/// Share of pixels that may look different: edges move a little between drivers.
+/// Share of pixels that may differ perceptibly: edges move slightly between drivers.
 const TOLERATED_SHARE: f32 = 0.004;
 /// Largest change of the mean luminance.
 const TOLERATED_MEAN: f32 = 0.005;
 
-/// Fails unless `picture` looks like tests/snapshots/`name`.png.
+/// Asserts that `picture` looks like tests/snapshots/`name`.png.
 pub fn assert_snapshot(name: &str, picture: &Picture) {
     let stored = file(name, "png");
     if std::env::var_os("UPDATE_SNAPSHOTS").is_some() {
@@ -40,7 +40,7 @@ fn file(name: &str, extension: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/snapshots").join(format!("{name}.{extension}"))
 }
 
-/// White where the pictures look different.
+/// Writes a picture that is white where the pictures differ perceptibly.
 fn save_marks(path: &Path, drawn: &Raster, reference: &Raster) {
     let marks =
         drawn.pixels.iter().zip(&reference.pixels).map(|(&a, &b)| if is_perceptible(a, b, 1.0) { 255 } else { 0 });

@@ -130,7 +130,7 @@ mod tests {
     }
 
     #[test]
-    fn chunks_are_the_batches_cut_into_pieces() {
+    fn chunks_are_consecutive_pieces_of_the_batches() {
         let scene = builtin::gallery();
         let (order, indices) = draw_order(&scene, |_| true);
         assert!(order.chunks.len() > order.batches.len());

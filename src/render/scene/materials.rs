@@ -130,7 +130,7 @@ mod tests {
     use std::mem::offset_of;
 
     #[test]
-    fn uniforms_lie_as_the_shader_reads_them() {
+    fn the_layout_of_uniforms_is_that_of_the_shader() {
         macro_rules! offsets {
             ($uniform:ty: $($field:ident),+) => { vec![$(offset_of!($uniform, $field)),+, size_of::<$uniform>()] };
         }

@@ -77,7 +77,7 @@ mod tests {
     use crate::scene::builtin;
 
     #[test]
-    fn what_is_in_view_is_drawn_once_in_its_material_and_a_quarter_of_the_scene_or_more_is_culled() {
+    fn triangles_in_view_are_drawn_once_and_a_quarter_of_the_scene_is_culled() {
         let scene = builtin::gallery();
         let (all, indices) = draw_order(&scene, |_| true);
         let Bounds { low, high } = scene.bounds();

@@ -107,7 +107,7 @@ mod tests {
     use crate::render::stored_light::light_tiles::LIGHT_TILES;
 
     #[test]
-    fn tiles_that_a_device_cannot_bind_are_not_made() {
+    fn tiles_need_buffers_that_the_device_can_bind() {
         let coarse = |num_texels| CoarseMesh {
             triangles: Vec::new(),
             tiles: Vec::new(),
@@ -121,7 +121,7 @@ mod tests {
     }
 
     #[test]
-    fn the_shader_reads_what_is_written() {
+    fn the_layout_of_elements_is_that_of_the_shader() {
         let written = [std::mem::offset_of!(TileElement, vertices), std::mem::offset_of!(TileElement, corners)];
         assert_eq!(struct_layout(&LIGHT_TILES, "Element"), [written[0], written[1], size_of::<TileElement>()]);
         assert_eq!(constant(&LIGHT_TILES, "NOTHING"), NOTHING);
