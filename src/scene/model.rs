@@ -23,7 +23,7 @@ pub struct Scene {
     pub vertices: Vec<Vertex>,
     /// Triangles `[t]`, those of one instance side by side.
     pub triangles: Vec<Triangle>,
-    /// Which triangles are backs of others. Only bakes have any.
+    /// The triangles that are backs of others; only baked scenes have any.
     pub sides: Sides,
     /// Placed primitives `[i]`.
     pub instances: Vec<Instance>,
@@ -41,7 +41,8 @@ pub struct Scene {
     pub light_groups: Vec<String>,
     /// Baked light of the file: vertex attributes whose name begins with `_IRRADIANCE_`, one value per vertex.
     pub irradiance: Vec<VertexAttribute>,
-    /// What a bake has written about the elements of instances, unchecked; `baked::gltf::from_scene` takes it.
+    /// Records of a bake about the elements of instances, not validated; `baked::gltf::from_scene` checks and removes
+    /// them.
     pub element_records: Vec<(InstanceId, ElementRecord)>,
     /// Names of the file's material variants; [`gltf::LoadOptions`](super::gltf::LoadOptions) selects one on loading.
     pub variants: Vec<String>,
@@ -69,14 +70,14 @@ pub struct VertexAttribute {
     pub values: Vec<Vec3>,
 }
 
-/// What a bake writes about the triangles of a primitive, which are its elements: `extras.elements` as the file has it.
+/// Record of a bake about the triangles of a primitive, which are its elements: `elements` of the `extras` in the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ElementRecord {
-    /// Version of the record.
+    /// Version of the format of the record.
     pub version: u64,
-    /// Bisection trees of the triangles, as text. `None` if the record has none.
+    /// Bisection trees of the triangles, as text; `None` if the record has none.
     pub trees: Option<String>,
-    /// The triangles are the backs of those of the instance that lies this many before. `None` if the record does not say so.
+    /// The triangles are the backs of those of the instance this many before theirs; `None` if they are no backs.
     pub back_of: Option<usize>,
 }
 
@@ -113,8 +114,8 @@ impl Scene {
         (0..self.triangles.len()).map(TriangleId::new).filter(|&triangle| !self.sides.is_back(triangle))
     }
 
-    /// The triangle that stores the light of the front or back side of `front`, and the barycentric coordinates in it of the
-    /// point with `weights` in the front.
+    /// The triangle that stores the light of the front or back side of `front`, and the barycentric coordinates in it
+    /// of the point with `weights` in the front.
     #[must_use]
     pub fn on_side(&self, front: TriangleId, weights: Vec3, is_front: bool) -> (TriangleId, Vec3) {
         match self.sides.back_of(front) {

@@ -1,9 +1,8 @@
 //! Pairs of front and back triangles of double-sided surfaces.
 //!
-//! A double-sided triangle of a file is one triangle, which rays and shadows hit from both sides. A bake stores light on each
-//! side, so it writes the back as a triangle of its own, over vertices with flipped normals and in the opposite winding.
-//! Rays, shadow casters and collision must hit the surface once, so they use
-//! [`Scene::fronts`](super::Scene::fronts) only.
+//! A double-sided triangle of a file is one triangle, which rays and shadows hit from both sides. A bake stores light
+//! on each side, so it writes the back as a triangle of its own, over vertices with flipped normals and in the opposite
+//! winding. Rays, shadow casters and collision must hit the surface once, so they use only the fronts.
 
 use glam::Vec3;
 
@@ -23,8 +22,8 @@ pub struct Sides {
 pub struct Back {
     /// The triangle.
     pub triangle: TriangleId,
-    /// Corner of the front at which the first corner of the back lies. The others follow the opposite way: corner `i` of the
-    /// back lies at corner `first - i` (modulo 3) of the front.
+    /// Corner of the front at which the first corner of the back lies. The others follow the opposite way: corner `i`
+    /// of the back lies at corner `first - i` (modulo 3) of the front.
     pub first: usize,
 }
 

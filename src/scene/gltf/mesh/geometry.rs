@@ -27,7 +27,7 @@ pub(crate) struct Geometry {
     pub influences: Vec<Vec<Influence>>,
     /// Whether it is the back of a double-sided surface, which a bake writes as triangles of its own.
     pub is_back: bool,
-    /// What a bake has written about its triangles. `None` if it is not from a bake.
+    /// Record of a bake about its triangles; `None` if no bake wrote the primitive.
     pub elements: Option<ElementRecord>,
 }
 
@@ -84,7 +84,7 @@ fn extras(primitive: &Primitive) -> Value {
     value.unwrap_or_default()
 }
 
-/// What a bake has written about the triangles of a primitive. `None` if it is not from a bake.
+/// Record of a bake about the triangles of a primitive; `None` if there is none or it has no version.
 fn element_record(elements: &Value) -> Option<ElementRecord> {
     Some(ElementRecord {
         version: elements["version"].as_u64()?,
