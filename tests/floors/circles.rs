@@ -12,7 +12,11 @@ pub fn circles(uses: &Uses) -> Vec<Circle> {
     let mut all: Vec<Circle> = uses.keys().filter_map(|file| shortest_circle(uses, file)).collect();
     all.sort_by_key(Vec::len);
     let mut covered = BTreeSet::new();
-    all.retain(|circle| circle.iter().fold(false, |new, file| covered.insert(file.clone()) || new));
+    all.retain(|circle| {
+        let num_before = covered.len();
+        covered.extend(circle.iter().cloned());
+        covered.len() > num_before
+    });
     all
 }
 

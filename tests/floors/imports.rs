@@ -71,7 +71,8 @@ impl Imports {
         // Types of the standard library have methods of these names, too.
         const COMMON: [&str; 10] = ["clear", "get", "insert", "is_empty", "iter", "len", "map", "new", "push", "take"];
         for (name, methods) in &self.files[file].methods {
-            let Some(Target::Item { file: owner, .. }) = self.resolve(&module_of(file), &[name.clone()], 0) else {
+            let Some(Target::Item { file: owner, .. }) = self.resolve(&module_of(file), std::slice::from_ref(name), 0)
+            else {
                 continue;
             };
             let calls = &self.files[&owner];
