@@ -71,7 +71,7 @@ impl PlanarShadowPass {
     /// Marks the shadows of a light at a homogeneous position, in a pass with cleared stencil and with bind group 0
     /// set.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, frame: FrameContext<'_>, light: Vec4) {
-        let Some((settings, shadow)) = &self.shadow else { return };
+        let (settings, shadow) = self.shadow.as_ref().expect("receivers have been chosen");
         let clearance = CLEARANCE * frame.shadows.bounds().extent();
         for ((receiver, corners), number) in self.receivers.iter().zip(1..) {
             pass.set_stencil_reference(FIRST_RECEIVER * number);

@@ -16,17 +16,26 @@ use super::settings::VolumeSettings;
 use super::stencil::VolumePipelines;
 use super::volumes::{Viewpoint, Volumes};
 use crate::gpu::Gpu;
+use crate::gpu::shader::{Shader, shader};
 use crate::render::shadow::light::pass_setup::PassSetup;
 use crate::render::shadow::shared::casters::Casters;
 use crate::render::shadow::shared::frame_context::FrameContext;
 use crate::render::shadow::shared::scene::SceneData;
 
+const SHADOW_VOLUME: Shader = shader!(
+    "shadow volume",
+    "shared/frame.wgsl",
+    "shadow/light/light_sample.wgsl",
+    "shadow/light/one_light.wgsl",
+    "shadow/volume/shadow_volume.wgsl"
+);
 /// Stencil value of a point whose triangle faces away from the light.
 const DARK: u32 = 1;
 
 /// Shadow volume pass.
 pub struct ShadowVolumePass {
     setup: PassSetup,
+    module: wgpu::ShaderModule,
     counting: Counting,
     pipelines: VolumePipelines,
     /// Pipelines with a far plane at a distance in metres.
@@ -78,8 +87,9 @@ impl CornerBuffer {
 impl ShadowVolumePass {
     /// Creates pipelines for volumes that are counted in one way.
     pub fn new(gpu: &Gpu, setup: &PassSetup, counting: Counting) -> Self {
-        let pipelines = VolumePipelines::new(gpu, setup, None);
-        Self { setup: setup.clone(), counting, pipelines, cut_off: None, volumes: HashMap::new() }
+        let module = SHADOW_VOLUME.module(gpu);
+        let pipelines = VolumePipelines::new(gpu, setup, &module, None);
+        Self { setup: setup.clone(), module, counting, pipelines, cut_off: None, volumes: HashMap::new() }
     }
 
     /// Computes the volumes of all lights at homogeneous positions, except those that are kept from the last picture.
@@ -88,7 +98,8 @@ impl ShadowVolumePass {
             && self.cut_off.as_ref().is_none_or(|(known, _)| *known != distance)
         {
             let far_depth = frame.view.depth_at(distance);
-            self.cut_off = Some((distance, VolumePipelines::new(frame.gpu, &self.setup, Some(far_depth))));
+            self.cut_off =
+                Some((distance, VolumePipelines::new(frame.gpu, &self.setup, &self.module, Some(far_depth))));
         }
         let needed: HashMap<VolumeKey, Vec4> =
             lights.iter().map(|&light| (self.key(frame, light, settings), light)).collect();
@@ -115,7 +126,8 @@ impl ShadowVolumePass {
         light: Vec4,
         settings: &VolumeSettings,
     ) {
-        let Some(volumes) = self.volumes.get(&self.key(frame, light, settings)) else { return };
+        let key = self.key(frame, light, settings);
+        let volumes = self.volumes.get(&key).expect("the volumes of all lights have been prepared");
         let pipelines = match (&self.cut_off, settings.far_plane) {
             (Some((_, cut_off)), Some(_)) => cut_off,
             _ => &self.pipelines,

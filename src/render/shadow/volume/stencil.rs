@@ -12,18 +12,10 @@
 //! of faces does not matter; being in a multiple of 256 volumes counts as being in none.
 
 use crate::gpu::Gpu;
-use crate::gpu::shader::{Shader, shader};
 use crate::render::shadow::light::pass_setup::PassSetup;
 use crate::render::shadow::shared::pipeline::{CORNER, PipelineRecipe, against_depth, pipeline_layout};
 use crate::render::shadow::shared::stencil::{both_faces, on_pass};
 
-const SHADOW_VOLUME: Shader = shader!(
-    "shadow volume",
-    "shared/frame.wgsl",
-    "shadow/light/light_sample.wgsl",
-    "shadow/light/one_light.wgsl",
-    "shadow/volume/shadow_volume.wgsl"
-);
 /// A side begins at the edge of its caster, where both are equally deep but for rounding, and a cap lies in its
 /// triangle: there the volume has to be behind the surface. The bias moves it away from the eye by its change of
 /// depth over a 128th of a pixel, which is more than rasterisation moves corners.
@@ -40,9 +32,8 @@ pub struct VolumePipelines {
 }
 
 impl VolumePipelines {
-    /// Creates pipelines that cut volumes off beyond `far_depth`, if that is given.
-    pub fn new(gpu: &Gpu, setup: &PassSetup, far_depth: Option<f32>) -> Self {
-        let module = SHADOW_VOLUME.module(gpu);
+    /// Creates pipelines from the module of the shadow volume pass; they cut volumes off beyond `far_depth`, if given.
+    pub fn new(gpu: &Gpu, setup: &PassSetup, module: &wgpu::ShaderModule, far_depth: Option<f32>) -> Self {
         let layout = pipeline_layout(gpu, "shadow volume", &setup.groups());
         let both_windings = |cull_mode, depth_stencil: wgpu::DepthStencilState, far_depth: Option<f32>| {
             [wgpu::FrontFace::Ccw, wgpu::FrontFace::Cw].map(|front_face| {
@@ -53,7 +44,7 @@ impl VolumePipelines {
                     primitive: wgpu::PrimitiveState { front_face, cull_mode, ..Default::default() },
                     depth_stencil: Some(depth_stencil.clone()),
                     samples: setup.samples,
-                    ..PipelineRecipe::new("shadow volume", &layout, &module)
+                    ..PipelineRecipe::new("shadow volume", &layout, module)
                 }
                 .make(gpu)
             })
