@@ -90,17 +90,16 @@ impl Gpu {
         format!("{} ({})", info.name, info.backend)
     }
 
-    /// The processor draws.
-    #[must_use]
-    pub fn is_software(&self) -> bool {
-        self.tier.is_software()
-    }
-
-    /// Checks that the device works. wgpu accepts work for a lost device and drops it, so what was drawn stays black.
+    /// Checks that the device works, without waiting for it.
+    ///
+    /// wgpu accepts work for a lost device and drops it, so what was drawn would be black; and it panics where it fills a new
+    /// buffer of a lost device.
     ///
     /// # Errors
     /// Returns the reason if the device was lost.
     pub fn check(&self) -> Result<(), GpuError> {
+        // This delivers the callback; an error of the poll itself is that of the loss.
+        let _ = self.device.poll(wgpu::PollType::Poll);
         self.loss.get().map_or(Ok(()), |reason| Err(GpuError::Lost(reason.clone())))
     }
 

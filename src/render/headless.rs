@@ -37,6 +37,7 @@ pub fn picture(
     size: [u32; 2],
     settings: &RenderSettings,
 ) -> Result<Picture, GpuError> {
+    gpu.check()?;
     let has_shadows = settings.shadows.is_some() || settings.shadow_debug.is_some();
     let shadows = has_shadows.then(|| Arc::new(ShadowScene::new(gpu, Arc::new(baked.scene.clone()))));
     let scene = SceneBuffers::new(gpu, baked);
@@ -50,6 +51,7 @@ pub fn picture(
 /// As [`picture`].
 pub fn draw_picture(gpu: &Gpu, request: &PictureRequest<'_>, samples: u32) -> Result<Picture, GpuError> {
     let [width, height] = request.size;
+    gpu.check()?;
     check_size(gpu, request.size)?;
     let mut renderer = Renderer::keeping_radiance(gpu, wgpu::TextureFormat::Rgba8Unorm, samples);
     let target = display_target(gpu, request.size);
