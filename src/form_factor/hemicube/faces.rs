@@ -80,7 +80,7 @@ mod tests {
         Viewpoint { position: Vec3::new(1.0, 2.0, 3.0), normal, seed: 5 }
     }
 
-    /// Normalised device coordinates of a point where it is in front of the face.
+    /// Normalised device coordinates of a point; `None` if it lies behind the face.
     fn project(matrix: &Mat4, point: Vec3) -> Option<Vec3> {
         let clip = *matrix * point.extend(1.0);
         (clip.w > 0.0).then(|| clip.truncate() / clip.w)

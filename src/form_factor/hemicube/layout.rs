@@ -16,7 +16,7 @@ impl Layout {
         ATLAS_WIDTH / self.n
     }
 
-    /// Hemicubes a submission.
+    /// Number of hemicubes per submission.
     pub(super) fn capacity(self) -> usize {
         (self.columns() * (ATLAS_HEIGHT / (3 * self.n))) as usize
     }

@@ -10,7 +10,7 @@
 //! error below the tolerance exists. Interpolation uses records up to twice that error, so each point blends several and the
 //! border of a record's neighbourhood stays invisible.
 //!
-//! Source: Ward, Rubinstein, Clear 1988, "A ray tracing solution for diffuse interreflection"; Ward, Heckbert 1992.
+//! Source: Ward, Rubinstein, Clear 1988, "A ray tracing solution for diffuse interreflection".
 
 use glam::{IVec3, Vec3};
 use rustc_hash::FxHashMap;

@@ -28,7 +28,7 @@ pub struct RowStore {
 }
 
 impl RowStore {
-    /// An empty store; each row will be the mean over `points_a_patch` viewpoints.
+    /// An empty store; each row is the mean over `points_a_patch` viewpoints.
     #[must_use]
     pub fn new(num_patches: usize, points_a_patch: usize, budget: usize) -> Self {
         Self { rows: vec![None; num_patches], bytes: 0, budget, points_a_patch, num_computed: 0 }

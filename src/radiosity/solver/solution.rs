@@ -29,7 +29,7 @@ impl Solution {
     /// Equation: ambient = (sum of unshot power / A) x R with R = 1 + rho + rho^2 + ... = 1 / (1 - rho), where A is the total
     /// area and rho the mean reflectance by area.
     ///
-    /// Source: Cohen, Chen, Wallace, Greenberg 1988, section 5.
+    /// Source: Cohen, Chen, Wallace, Greenberg 1988 (the ambient term).
     #[must_use]
     pub fn ambient_estimate(&self, mesh: &PatchMesh) -> Vec<Vec3> {
         let area: f32 = mesh.patches.iter().map(|patch| patch.area).sum();
