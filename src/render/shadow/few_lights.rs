@@ -1,5 +1,8 @@
 //! Up to four light samples, unshadowed or with their shadow maps, that the surface pass adds itself: neither depth nor
 //! direct light needs a pass of its own.
+//!
+//! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain is
+//! not measured.
 
 use bytemuck::Zeroable;
 
