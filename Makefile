@@ -7,9 +7,10 @@
 run: setup
 	scripts/view
 
-# Unit tests, integration tests and doctests.
+# Unit tests, integration tests and doctests, then each example.
 test: setup
 	cargo test
+	$(MAKE) examples
 
 examples: setup
 	for file in examples/*.rs; do cargo run --quiet --example $$(basename $$file .rs) || exit 1; done
