@@ -2,7 +2,7 @@
 //!
 //! A bake solves the radiosity equation of a scene once and stores irradiance (lux) at the vertices of its mesh. The
 //! result is a standard .glb file, can be measured at any point, and is drawn from any viewpoint, with real-time
-//! shadows if wanted.
+//! shadows as an option.
 //!
 //! # The route
 //!

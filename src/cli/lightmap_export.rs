@@ -26,7 +26,7 @@ pub struct LightmapOptions {
 }
 
 impl LightmapOptions {
-    /// The lightmap of a bake of `scene`; `None` if the options ask for none.
+    /// The lightmap of a bake of `scene`; `None` without --lightmap.
     ///
     /// # Errors
     /// Returns an error if the scene falls into too many pieces.

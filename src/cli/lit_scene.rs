@@ -12,7 +12,7 @@ use crate::scene::Scene;
 /// The device that draws the hemicubes of a bake; `None` if the bake uses rays.
 ///
 /// # Errors
-/// Returns an error if the settings ask for hemicubes and there is no driver.
+/// Returns an error if the settings require hemicubes and there is no driver.
 pub fn bake_device(settings: &BakeSettings) -> Result<Option<Gpu>> {
     if settings.method == Some(Method::Hemisphere) {
         return Ok(None);

@@ -46,7 +46,7 @@ impl ShadowOptions {
         self.shadows.map(|technique| self.settings_of(technique))
     }
 
-    /// The debug view, if one is wanted.
+    /// The debug view; `None` without --shadow-debug.
     #[must_use]
     pub fn debug(&self) -> Option<ShadowDebug> {
         self.shadow_debug.map(|view| ShadowDebug { view, light: self.shadow_debug_light })

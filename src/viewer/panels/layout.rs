@@ -29,39 +29,39 @@ use crate::viewer::settings::view::{TABS, Tab};
 /// Width of the side panel, points.
 pub const WIDTH: f32 = 312.0;
 
-/// What the user has set, and what lies open.
+/// What the user has set in the panels, and which dialogs are open.
 pub struct Panels {
     /// How the light is shown.
     pub light: LightSettings,
     /// Preset of the next bake.
     pub quality: Quality,
-    /// What is remembered between runs.
+    /// Preferences that are kept between runs.
     pub preferences: Preferences,
     /// What a click in the picture does.
     pub tool: Tool,
-    /// Which instances are seen and chosen.
+    /// Which instances are hidden and selected.
     pub selection: Selection,
-    /// What of the advice is shown.
+    /// The location that is marked in the picture.
     pub shown_advice: Option<AdviceLocation>,
-    /// How grids are laid out.
+    /// Layout of measured grids.
     pub grid: GridSettings,
     /// Form factors of the chosen patch are shown as a heat map.
     pub shows_heat: bool,
-    /// The time machine.
+    /// Settings of the time machine.
     pub replay: ReplaySettings,
     /// The key sheet is shown.
     pub shows_help: bool,
-    /// The user is choosing a file.
+    /// The dialog that opens a file, if it is open.
     pub dialog: Option<OpenDialog>,
-    /// A line that goes away by itself.
+    /// A line of text that disappears after some seconds.
     pub notice: Option<Notice>,
-    /// What went wrong, until the user has read it.
+    /// An error that is shown until it is closed.
     pub trouble: Option<Trouble>,
     patch_view: PatchViewPicture,
 }
 
 impl Panels {
-    /// Everything as the user left it.
+    /// Panels with these preferences.
     #[must_use]
     pub fn new(quality: Quality, preferences: Preferences) -> Self {
         Self {
@@ -82,7 +82,7 @@ impl Panels {
         }
     }
 
-    /// Instances that are tinted in the picture: the selected one, or those that are chosen to throw shadows.
+    /// Instances that are tinted in the picture: the selected one, or those that are chosen to cast planar shadows.
     #[must_use]
     pub fn chosen_instances(&self) -> BTreeSet<InstanceId> {
         match self.tool {
@@ -91,14 +91,14 @@ impl Panels {
         }
     }
 
-    /// Times of passes are on show.
+    /// True if the durations of passes are visible.
     #[must_use]
     pub fn shows_times(&self) -> bool {
         let is_unfolded = self.preferences.sections.get("Shadows").copied().unwrap_or(false);
         self.light.is_real_time && self.preferences.is_open && self.preferences.tab == Tab::Picture && is_unfolded
     }
 
-    /// Lays out all panels; what the user asked for, and what is left for the picture.
+    /// Lays out all panels; returns the actions of the user and the area that is left for the picture.
     pub fn ui(&mut self, ui: &mut Ui, facts: &Facts<'_>) -> (Vec<Action>, Rect) {
         let mut actions = Vec::new();
         egui::Panel::bottom("status").frame(theme::bar()).show(ui, |ui| status::status_ui(ui, facts));
@@ -119,7 +119,7 @@ impl Panels {
         (actions, free)
     }
 
-    /// What lies over the picture.
+    /// What is drawn over the picture.
     fn picture_ui(&mut self, ui: &mut Ui, free: Rect, facts: &Facts<'_>) {
         if facts.scene.open.is_none() && self.trouble.is_none() {
             message::empty_ui(ui.ctx(), free, &facts.bake.light);

@@ -6,13 +6,11 @@ use super::super::chrome::widgets::lux;
 use crate::render::{LuxScale, turbo};
 
 /// Size of the bar, points.
-/// Size of the bar, points.
 const BAR: egui::Vec2 = vec2(18.0, 220.0);
 /// Width of the numbers, points.
 const NUMBERS: f32 = 58.0;
 /// Number of parts if the picture shows no lines of equal illuminance.
 const DEFAULT_PARTS: u32 = 4;
-/// Number of colours in the bar.
 /// Number of colours in the bar.
 const STEPS: usize = 64;
 
