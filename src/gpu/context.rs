@@ -76,6 +76,11 @@ impl Gpu {
         let lost = Arc::clone(&loss);
         // The first reason counts: those that follow are its consequences.
         device.set_device_lost_callback(move |reason, message| drop(lost.set(format!("{message} ({reason:?})"))));
+        let lost = Arc::clone(&loss);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            // Errors after a loss are its consequences; any other is a fault of this program.
+            assert!(lost.get().is_some(), "wgpu error: {error}");
+        }));
         let tier = Tier::of(&adapter.get_info());
         if tier.is_software() {
             keep_allocated_memory();

@@ -22,6 +22,7 @@ pub fn read_stencil(gpu: &Gpu, texture: &wgpu::Texture) -> Result<Vec<u8>, GpuEr
 }
 
 fn read_aspect(gpu: &Gpu, source: wgpu::TexelCopyTextureInfo<'_>, bytes_per_pixel: u32) -> Result<Vec<u8>, GpuError> {
+    gpu.check()?;
     let size = source.texture.size();
     let row = size.width * bytes_per_pixel;
     let padded_row = row.next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
@@ -52,6 +53,7 @@ fn read_aspect(gpu: &Gpu, source: wgpu::TexelCopyTextureInfo<'_>, bytes_per_pixe
 /// # Errors
 /// Returns an error if the device was lost.
 pub fn read_buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
+    gpu.check()?;
     let buffer = gpu.device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("readback"),
         size: source.size(),
