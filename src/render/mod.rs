@@ -9,7 +9,7 @@
 //! | [`scene`] | the lit scene on the device |
 //! | [`stored_light`] | the light of the vertices, summed over the light groups, and spread over tiles |
 //! | [`shadow`] | direct light from the lights themselves, in the shadows of a technique |
-//! | [`surface`] | radiance of every visible point |
+//! | `surface` | radiance of every visible point |
 //! | [`display`] | exposure and tone mapping, false colours |
 //! | [`compare`] | how far two pictures differ |
 //!

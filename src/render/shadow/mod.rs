@@ -1,17 +1,17 @@
 //! Real-time direct light with shadows, by techniques that can be switched and compared.
 //!
-//! A bake stores direct and indirect light. In place of the stored direct light, [`real_time`] adds the light samples
+//! A bake stores direct and indirect light. In place of the stored direct light, `real_time` adds the light samples
 //! of a scene, each wherever it is not in shadow. Each technique is a room:
 //!
-//! * [`map`]: shadow maps with percentage-closer filtering (Williams 1978; Reeves et al. 1987)
-//! * [`volume`]: shadow volumes in the stencil, z-pass and z-fail (Heidmann 1991; Everitt and Kilgard 2002)
-//! * [`planar`]: casters projected on to large planes (Blinn 1988)
+//! * `map`: shadow maps with percentage-closer filtering (Williams 1978; Reeves et al. 1987)
+//! * `volume`: shadow volumes in the stencil, z-pass and z-fail (Heidmann 1991; Everitt and Kilgard 2002)
+//! * `planar`: casters projected on to large planes (Blinn 1988)
 //! * `raytraced`: one ray for each pixel and light sample, the reference
 //! * `cutout`: shadows of casters with holes, for the techniques that use outlines only
 //!
-//! They stand on [`shared`] (frame, casters, pipelines) and [`light`] (light samples, the direct light pass), and never
-//! import each other. `dispatch` chooses the passes of a technique, [`debug`] draws what a technique works with, and
-//! [`comparison`] measures how far two techniques differ.
+//! They stand on `shared` (frame, casters, pipelines) and `light` (light samples, the direct light pass), and never
+//! import each other. `dispatch` chooses the passes of a technique, `debug` draws what a technique works with, and
+//! `comparison` measures how far two techniques differ.
 //!
 //! Surfaces that blend throw shadows as if they were solid from half opacity on. They receive none: they keep the
 //! light of the bake.

@@ -1,5 +1,5 @@
 //! The panels beside and over the picture: plain functions that turn [`Facts`] (what is shown) and [`Panels`] (what the
-//! user has set) into widgets, and clicks into [`Action`](super::action::Action)s.
+//! user has set) into widgets, and clicks into `Action`s.
 //!
 //! The panels have no access to the window, the device or the scene. Each section is a file with one `*_ui` function;
 //! the sections of a page of the side panel share a room: `picture`, `solution`, `measurement`, `scene`. `overlay` is

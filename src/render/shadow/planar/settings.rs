@@ -13,7 +13,7 @@ use crate::scene::Scene;
 pub struct PlanarSettings {
     /// How many of the largest planes receive shadows, if none are chosen.
     pub num_receivers: usize,
-    /// Planes that are chosen to receive shadows, as [`plane_of`] returns them.
+    /// Planes that are chosen to receive shadows, as `plane_of` returns them.
     pub receivers: Vec<Vec4>,
     /// Instances that are chosen to throw shadows; all do if this is empty.
     pub casters: BTreeSet<InstanceId>,
