@@ -140,7 +140,7 @@ impl<'a> FromIterator<Tree<'a>> for BisectionTrees {
 }
 
 impl fmt::Display for BisectionTrees {
-    /// Writes the text that [`Self::parse`] reads.
+    /// Writes the text that `parse` reads.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         self.nodes.iter().try_for_each(|node| match node {
             TreeNode::Regular { depth } => write!(f, "{}", char::from(b'a' + depth)),

@@ -11,7 +11,7 @@
 //! | [`shadow`] | direct light from the lights themselves, in the shadows of a technique |
 //! | `surface` | radiance of every visible point |
 //! | [`display`] | exposure and tone mapping, false colours |
-//! | [`compare`] | how far two pictures differ |
+//! | [`mod@compare`] | how far two pictures differ |
 //!
 //! [`picture()`] draws a picture without a window. Deliberately absent: a render graph, a scene tree, view-dependent light;
 //! light comes from the vertices.
