@@ -1,7 +1,7 @@
 //! Collision and picking: the scene's triangles in a bounding volume hierarchy.
 //!
-//! It answers box queries besides rays, unlike the tracer of light ([`crate::trace`]), and owns its triangles, so that no
-//! scene is borrowed. Alpha cut-outs and both sides of a face are solid.
+//! Unlike the tracer of light ([`crate::trace`]), it supports box queries and owns its triangles, so it borrows no
+//! scene. Alpha cut-outs and both sides of a face are solid.
 
 use glam::{Vec3, Vec3A};
 use obvhs::BvhBuildParams;
@@ -18,14 +18,14 @@ use crate::scene::Scene;
 /// The triangles of a scene as solids.
 pub struct Collider {
     tree: Bvh2,
-    /// In the order of the leaves of the tree.
+    /// Triangles in the order of the leaves of the tree.
     triangles: Vec<Triangle>,
-    /// Indices of `triangles` in the scene.
+    /// Index in the scene of each of `triangles`.
     numbers: Vec<TriangleId>,
     bounds: Bounds,
 }
 
-/// The surface that is visible in a direction.
+/// The visible surface in a direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pick {
     /// Point of the surface, metres.
@@ -65,26 +65,26 @@ impl Collider {
         Self { tree, triangles, numbers, bounds: scene.bounds() }
     }
 
-    /// Bounding box of the scene, metres.
+    /// Returns the bounding box of the scene, metres.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         self.bounds
     }
 
-    /// The highest surface below `from`, at most `depth` metres lower.
+    /// Returns the highest surface below `from`, at most `depth` metres lower.
     #[must_use]
     pub fn below(&self, from: Vec3, depth: f32) -> Option<Surface> {
         self.vertical(from, Vec3A::NEG_Y, depth)
     }
 
-    /// The lowest surface above `from`, at most `height` metres higher.
+    /// Returns the lowest surface above `from`, at most `height` metres higher.
     #[must_use]
     pub fn above(&self, from: Vec3, height: f32) -> Option<Surface> {
         self.vertical(from, Vec3A::Y, height)
     }
 
-    /// The surface that is visible from `from` along `direction` (of any length). Backs of triangles for which
-    /// `sees_back_of` is false are transparent.
+    /// Returns the first visible surface along the ray from `from` in `direction` (of any length). Backs of triangles
+    /// for which `sees_back_of` is false are transparent.
     #[must_use]
     pub fn pick(&self, from: Vec3, direction: Vec3, sees_back_of: impl Fn(TriangleId) -> bool) -> Option<Pick> {
         let direction = direction.try_normalize()?;
@@ -143,7 +143,7 @@ mod tests {
     fn picking_passes_through_backs_unless_they_are_visible() {
         let scene = crate::scene::builtin::cornell();
         let collider = Collider::new(&scene);
-        // From outside, behind the back wall, towards the open front.
+        // The ray starts outside, behind the back wall, and points to the open front.
         let (from, direction) = (Vec3::new(2.7, 4.5, 12.0), Vec3::NEG_Z);
         let through = collider.pick(from, direction, |_| false);
         let stopped = collider.pick(from, direction, |_| true).expect("the wall");

@@ -8,22 +8,22 @@ use crate::viewer::camera::glide::Glide;
 use crate::viewer::camera::pose::CameraPose;
 use crate::viewer::camera::walk::{Body, Walker};
 
-/// Walking speed, metres a second.
+/// Walking speed, m/s.
 const PACE: f32 = 2.0;
-/// Flying speed over walking speed.
+/// Flying speed / walking speed.
 const FLYING: f32 = 1.5;
-/// Running speed over walking speed.
+/// Running speed / walking speed.
 const RUNNING: f32 = 2.5;
-/// Turn and tilt by the arrow keys, radians a second.
+/// Turn and tilt by the arrow keys, radians per second.
 const TURN_RATE: f32 = 1.4;
 /// Factor on the speed for one notch of the wheel.
 const NOTCH: f32 = 1.15;
 /// Range of the factor that the wheel sets.
 const SPEED_RANGE: (f32, f32) = (0.05, 50.0);
-/// Longest time that one frame moves the camera for, seconds.
+/// Largest time step of a frame, seconds.
 const MAX_FRAME: f32 = 0.25;
 
-/// Movement that is requested by keys; each axis is -1..1.
+/// Movement that keys request; each axis is -1..1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct MotionInput {
     /// Along the viewing direction; along the floor when walking.
@@ -41,7 +41,7 @@ pub struct MotionInput {
 }
 
 impl MotionInput {
-    /// Some axis is not zero; `run` alone is no movement.
+    /// Returns true if an axis is not zero; `run` alone is no movement.
     #[must_use]
     pub fn is_moving(&self) -> bool {
         [self.forward, self.right, self.up, self.turn_left, self.turn_up].iter().any(|&axis| axis != 0.0)
@@ -50,19 +50,19 @@ impl MotionInput {
 
 /// The pose of the camera and the state of its movement.
 pub struct CameraController {
-    /// Where the camera is and where it looks.
+    /// Position and direction of the camera.
     pub pose: CameraPose,
     /// `None` while the camera flies.
     walker: Option<Walker>,
     glide: Glide,
-    /// Size of a person in this scene over that of a real one.
+    /// Size of a person in this scene / size of a real person.
     scale: f32,
-    /// Factor that is set by the wheel.
+    /// Factor on the speed that the wheel sets.
     speed_factor: f32,
 }
 
 impl CameraController {
-    /// A controller that walks if `pose` is at about eye height above a floor, and flies otherwise.
+    /// Creates a controller. The camera walks if `pose` is at about eye height above a floor, and flies otherwise.
     #[must_use]
     pub fn new(pose: CameraPose, collider: &Collider) -> Self {
         let scale = scale_of(collider.bounds());
@@ -75,7 +75,7 @@ impl CameraController {
         controller
     }
 
-    /// The camera walks.
+    /// Returns true if the camera walks.
     #[must_use]
     pub fn is_walking(&self) -> bool {
         self.walker.is_some()
@@ -123,7 +123,7 @@ impl CameraController {
         self.speed_factor = (self.speed_factor * NOTCH.powf(notches)).clamp(SPEED_RANGE.0, SPEED_RANGE.1);
     }
 
-    /// Speed without running, metres a second.
+    /// Returns the speed without running, m/s.
     #[must_use]
     pub fn speed(&self) -> f32 {
         PACE * self.scale * self.speed_factor * if self.is_walking() { 1.0 } else { FLYING }
@@ -143,7 +143,7 @@ impl CameraController {
         }
     }
 
-    /// The camera moves on even if no key is held.
+    /// Returns true if the camera still moves when no key is held down.
     #[must_use]
     pub fn is_moving(&self) -> bool {
         self.glide.is_moving() || self.walker.as_ref().is_some_and(Walker::is_moving)
@@ -162,12 +162,12 @@ impl CameraController {
     }
 }
 
-/// There is no floor below the camera.
+/// Error: there is no floor below the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoFloor;
 
-/// Size of a person in a scene with these bounds. Scenes with a diagonal of 3 m to 1000 m are taken as they are; in smaller
-/// or larger ones the person is scaled with the scene.
+/// Returns the scale of a person in a scene with these bounds: 1 for diagonals of 3 m to 1000 m. In smaller or larger
+/// scenes the person is scaled with the scene.
 fn scale_of(bounds: Bounds) -> f32 {
     const SMALLEST: f32 = 3.0;
     const LARGEST: f32 = 1000.0;
@@ -180,7 +180,7 @@ mod tests {
     use super::*;
     use crate::scene::{Material, SceneBuilder};
 
-    /// A square floor of this width at height 0.
+    /// Builds a square floor of this width at height 0.
     fn floor(width: f32) -> Collider {
         let corners = [(-0.5, -0.5), (-0.5, 0.5), (0.5, 0.5), (0.5, -0.5)];
         let mut builder = SceneBuilder::default();

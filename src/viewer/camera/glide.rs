@@ -14,7 +14,7 @@ pub struct Glide {
 }
 
 impl Glide {
-    /// Displacement, in metres, over `seconds` with a constant `target` velocity, metres a second.
+    /// Returns the displacement, metres, over `seconds` with a constant `target` velocity, m/s.
     pub fn advance(&mut self, target: Vec3, seconds: f32) -> Vec3 {
         let kept = (-seconds / GLIDE_TIME).exp();
         let gap = self.velocity - target;
@@ -25,7 +25,7 @@ impl Glide {
         target * seconds + gap * (GLIDE_TIME * (1.0 - kept))
     }
 
-    /// The velocity is not zero.
+    /// Returns true if the velocity is not zero.
     #[must_use]
     pub fn is_moving(&self) -> bool {
         self.velocity != Vec3::ZERO

@@ -24,14 +24,15 @@ pub struct CameraPose {
 }
 
 impl CameraPose {
-    /// A camera at `position` that looks along `direction` (of any length).
+    /// Returns the pose of a camera at `position` that looks along `direction` (of any length).
     #[must_use]
     pub fn looking_along(position: Vec3, direction: Vec3) -> Self {
         let d = direction.normalize_or(Vec3::NEG_Z);
         Self { position, yaw: (-d.x).atan2(-d.z), pitch: d.y.asin().clamp(-MAX_PITCH, MAX_PITCH), fov_y: DEFAULT_FOV_Y }
     }
 
-    /// The pose of a camera of the file without its roll; an orthographic camera gets the default field of view.
+    /// Returns the pose of a camera of the file without its roll. An orthographic camera gets the default field of
+    /// view.
     #[must_use]
     pub fn from_camera(camera: &Camera) -> Self {
         let mut pose = Self::looking_along(camera.position, camera.forward());
@@ -41,19 +42,19 @@ impl CameraPose {
         pose
     }
 
-    /// Unit vector of the viewing direction.
+    /// Returns the unit vector of the viewing direction.
     #[must_use]
     pub fn forward(&self) -> Vec3 {
         self.rotation() * Vec3::NEG_Z
     }
 
-    /// Unit vector of the viewing direction, projected on to the floor.
+    /// Returns the unit vector of the viewing direction, projected onto the floor.
     #[must_use]
     pub fn heading(&self) -> Vec3 {
         Quat::from_rotation_y(self.yaw) * Vec3::NEG_Z
     }
 
-    /// Unit vector to the right, always horizontal.
+    /// Returns the unit vector to the right, which is always horizontal.
     #[must_use]
     pub fn right(&self) -> Vec3 {
         Quat::from_rotation_y(self.yaw) * Vec3::X
@@ -65,14 +66,14 @@ impl CameraPose {
         self.pitch = (self.pitch + up).clamp(-MAX_PITCH, MAX_PITCH);
     }
 
-    /// Unit vector from the camera through a point of the picture, given as -1..1 to the right and up.
+    /// Returns the unit vector from the camera through a point of the picture, given as -1..1 to the right and up.
     #[must_use]
     pub fn direction(&self, at: [f32; 2], aspect: f32) -> Vec3 {
         let half = (0.5 * self.fov_y).tan();
         (self.rotation() * Vec3::new(at[0] * half * aspect, at[1] * half, -1.0)).normalize()
     }
 
-    /// Position of a point in the picture, -1..1 to the right and up; `None` if it lies behind the camera.
+    /// Projects a point into the picture: -1..1 to the right and up; `None` if it lies behind the camera.
     #[must_use]
     pub fn project(&self, point: Vec3, aspect: f32) -> Option<[f32; 2]> {
         let seen = self.rotation().inverse() * (point - self.position);
@@ -94,7 +95,7 @@ impl CameraPose {
         self.position = bounds.centre() - self.forward() * (radius / half_angle.sin());
     }
 
-    /// The camera that pictures are rendered with.
+    /// Returns the camera that pictures are rendered with.
     #[must_use]
     pub fn camera(&self) -> Camera {
         Camera {
@@ -105,7 +106,7 @@ impl CameraPose {
         }
     }
 
-    /// The pose as an option of `hemicube render`.
+    /// Formats the pose as an option of `hemicube render`.
     #[must_use]
     pub fn render_option(&self) -> String {
         let (p, f) = (self.position, self.forward());

@@ -13,7 +13,7 @@ use crate::viewer::window::viewer::Viewer;
 const SLOW_FRAME: f32 = 0.1;
 
 impl Viewer {
-    /// The shadows become better by adding up light samples.
+    /// Returns true if the shadows improve when light samples are added up.
     pub fn adds_up(&self, content: &PictureContent) -> bool {
         let is_soft = |settings: &ShadowSettings| {
             let scene = content.shadows.scene();
@@ -28,14 +28,14 @@ impl Viewer {
             && self.session.worker().is_none()
     }
 
-    /// The batch of the first picture at rest.
+    /// Returns the batch of light samples of the first picture at rest.
     pub fn begin_batches(&mut self) -> SampleBatch {
         self.pacer.request();
         self.picture.refinement.samples_per_frame = 1;
         SampleBatch::whole(0)
     }
 
-    /// The picture with the next light samples; `None` if all have been added.
+    /// Returns the picture with the next light samples; `None` if all have been added.
     pub fn more_light(&mut self, content: &PictureContent) -> Option<NextPicture> {
         let settings = content.settings.shadows.as_ref()?;
         let last = self.surface.canvas.batch().filter(|_| self.adds_up(content))?;
@@ -46,7 +46,7 @@ impl Viewer {
         if number >= num_batches(settings.light_samples) {
             return None;
         }
-        // As many samples as fit into a frame, judged by the last one.
+        // The number of samples that fit into a frame is estimated from the time of the last one.
         let samples_per_frame = &mut self.picture.refinement.samples_per_frame;
         if self.pacer.last_seconds() > SLOW_FRAME {
             *samples_per_frame = (*samples_per_frame / 2).max(1);
@@ -60,7 +60,7 @@ impl Viewer {
         Some(NextPicture { content: content.clone(), detail: Detail::Fine, batch, is_partial })
     }
 
-    /// Points that have been added up for each lamp, and how many there will be.
+    /// Returns the samples per lamp that have been added up, and their final number.
     pub fn num_points(&self) -> Option<[u32; 2]> {
         let count = num_batches(self.panels.light.shadows.light_samples);
         let done = self.surface.canvas.batch()?.number + 1;

@@ -18,7 +18,7 @@ const SIZE: LogicalSize<f64> = LogicalSize::new(1280.0, 720.0);
 /// Smallest size of the window, in which the panels are still usable, points.
 const SMALLEST: LogicalSize<f64> = LogicalSize::new(480.0, 320.0);
 
-/// Most devices that replace a lost one: a device that is lost again and again is not usable.
+/// Largest number of times that a lost device is replaced. A device that is lost more often is not usable.
 const MAX_RECOVERIES: u32 = 3;
 
 /// The application of winit.
@@ -60,7 +60,7 @@ impl App {
         self.viewer_in(window, &self.options)
     }
 
-    /// A viewer in a window, with the folder of shaders watched if one is given.
+    /// Creates the viewer of a window. Watches the folder of shaders if the options name one.
     fn viewer_in(&self, window: Arc<Window>, options: &ViewerOptions) -> anyhow::Result<Viewer> {
         let mut viewer = Viewer::new(window, options, self.proxy.clone())?;
         if let Some(folder) = options.shaders.clone() {
@@ -69,7 +69,7 @@ impl App {
         Ok(viewer)
     }
 
-    /// Replaces a device that draws no more. The scene is loaded again, and a message says why.
+    /// Replaces a lost device, loads the scene again and shows a message with the reason.
     fn recover(&mut self, event_loop: &ActiveEventLoop) {
         let Some(error) = self.viewer.as_mut().and_then(|viewer| viewer.failure.take()) else { return };
         log::warn!("the graphics device is replaced: {error:#}");
@@ -77,7 +77,7 @@ impl App {
         let recovered = match self.viewer.take() {
             Some(lost) if self.num_recoveries <= MAX_RECOVERIES => {
                 let (window, options, pose) = lost.reopening(&self.options);
-                // Before there is a new surface, the old one must go.
+                // A window has one surface: the old one is dropped before the new one is created.
                 drop(lost);
                 self.viewer_in(window, &options).map(|viewer| viewer.after_loss(&error, pose))
             }

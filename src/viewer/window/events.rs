@@ -1,4 +1,4 @@
-//! Events of the window, of keys and mouse, and of threads.
+//! Handles events: of the window, keys and mouse, and of worker and job threads.
 
 use winit::event::{DeviceEvent, ElementState, KeyEvent, MouseButton, MouseScrollDelta, WindowEvent};
 use winit::keyboard::{Key, KeyCode, NamedKey, PhysicalKey};
@@ -9,10 +9,10 @@ use crate::viewer::settings::tool::Tool;
 use crate::viewer::window::input::shortcuts::action_of;
 use crate::viewer::window::viewer::Viewer;
 
-/// Pixels of a touchpad's scroll that count as one notch of a wheel.
+/// Scroll distance of a touchpad that equals one notch of a wheel, pixels.
 const PIXELS_A_NOTCH: f64 = 40.0;
 
-/// Distance from the divider of a split picture within which the pointer drags it, points.
+/// Distance from the divider of a split picture below which a press drags the divider, points.
 const DIVIDER_REACH: f32 = 7.0;
 
 impl Viewer {
@@ -90,9 +90,10 @@ impl Viewer {
         }
     }
 
-    /// The pointer is over the picture and not over a panel or the divider.
+    /// Returns true if the pointer is over the picture and not over a panel or the divider.
     ///
-    /// Position and size are compared first: egui's answer is that of the last frame, and a quick click comes before the next.
+    /// egui reports whether the pointer was over a panel in the last frame. A click can come before the next frame, so
+    /// the current position is also compared with the size of the picture.
     fn is_over_picture(&self) -> bool {
         let [width, height] = self.picture.size.map(f64::from);
         let is_on_divider = |x: f64| {
@@ -124,7 +125,7 @@ impl Viewer {
         self.pacer.request();
     }
 
-    /// The key is Q with control.
+    /// Returns true if the key is Ctrl+Q.
     fn is_quit(&self, event: &KeyEvent) -> bool {
         event.state == ElementState::Pressed
             && event.physical_key == PhysicalKey::Code(KeyCode::KeyQ)
@@ -144,7 +145,8 @@ impl Viewer {
         self.pacer.request();
     }
 
-    /// Ends or closes the first of these that is open: capture of the mouse, help, dialog, message, tool, selection, advice.
+    /// Handles the Escape key: ends one thing, the first active one of mouse capture, help, dialog, message, tool,
+    /// selection and advice.
     fn escape(&mut self) {
         let panels = &mut self.panels;
         let _ = self.controls.mouse.set_free(&self.window)

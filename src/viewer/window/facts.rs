@@ -1,4 +1,4 @@
-//! What the panels show, taken from the parts of the viewer.
+//! Collects the facts that the panels show from the parts of the viewer.
 
 use glam::Vec3;
 
@@ -13,7 +13,7 @@ use crate::viewer::window::pacing::Pacer;
 use crate::viewer::window::picture_state::PictureState;
 use crate::viewer::window::results::Results;
 
-/// Facts about the open scene.
+/// Returns the facts about the open scene.
 pub fn of_scene(session: &Session) -> SceneFacts<'_> {
     let open_scene = session.open_scene.as_ref();
     SceneFacts {
@@ -24,7 +24,7 @@ pub fn of_scene(session: &Session) -> SceneFacts<'_> {
     }
 }
 
-/// Facts about the light; `next` is the next bake, and `curve` the convergence of the last one.
+/// Returns the facts about the light. `next` describes the next bake, `curve` the convergence of the last one.
 pub fn of_bake<'a>(
     session: &'a Session,
     results: &'a Results,
@@ -44,7 +44,7 @@ pub fn of_bake<'a>(
     }
 }
 
-/// Facts about the camera.
+/// Returns the facts about the camera.
 pub fn of_camera<'a>(
     open_scene: Option<&OpenScene>,
     is_captured: bool,
@@ -62,7 +62,7 @@ pub fn of_camera<'a>(
     }
 }
 
-/// Facts about the picture and the frames.
+/// Returns the facts about the picture and the frames.
 pub fn of_picture<'a>(picture: &PictureState, jobs: &Jobs, pacer: &Pacer, adapter: &'a str) -> PictureFacts<'a> {
     PictureFacts {
         size: picture.size,
@@ -74,7 +74,7 @@ pub fn of_picture<'a>(picture: &PictureState, jobs: &Jobs, pacer: &Pacer, adapte
     }
 }
 
-/// Facts about the shadows; `num_points` are the points of each lamp that have been added up, and how many there will be.
+/// Returns the facts about the shadows. `num_points`: samples per lamp that have been added up, and their final number.
 pub fn of_shadows<'a>(picture: &'a PictureState, canvas: &'a Canvas, num_points: Option<[u32; 2]>) -> ShadowFacts<'a> {
     ShadowFacts {
         num_light_samples: picture.notes.num_light_samples,
@@ -86,7 +86,7 @@ pub fn of_shadows<'a>(picture: &'a PictureState, canvas: &'a Canvas, num_points:
     }
 }
 
-/// Facts about measurements.
+/// Returns the facts about measurements.
 pub fn of_measurement<'a>(results: &'a Results, jobs: &Jobs) -> MeasurementFacts<'a> {
     let measurements = &results.measurements;
     MeasurementFacts {

@@ -1,4 +1,4 @@
-//! One frame, and when the next one is due.
+//! Draws a frame and schedules the next.
 
 use std::time::{Duration, Instant};
 
@@ -13,7 +13,7 @@ use crate::viewer::window::facts;
 use crate::viewer::window::surface::FrameOutcome;
 use crate::viewer::window::viewer::Viewer;
 
-/// Pause between two uploads of light during a bake, in frame times: drawing then costs the bake little.
+/// Pause between two uploads of light during a bake, in frame times. Longer pauses leave more time to the bake.
 const LIGHT_INTERVAL: f32 = 6.0;
 
 impl Viewer {
@@ -26,7 +26,7 @@ impl Viewer {
         let seconds = self.pacer.begin();
 
         let is_moving = self.move_by_keys(seconds);
-        // Actions of the panels change the next frame.
+        // Actions that the panels request are performed after this frame and change the next one.
         let (panels, actions) = self.lay_out();
         let is_retried = match self.present(panels) {
             FrameOutcome::Retry => true,
@@ -52,7 +52,7 @@ impl Viewer {
         self.save_changed_preferences();
     }
 
-    /// Moves the camera by the keys that are held. Returns true if it goes on moving.
+    /// Moves the camera by the keys that are held down. Returns true if it moves in the next frame too.
     fn move_by_keys(&mut self, seconds: f32) -> bool {
         let input = self.controls.keys.motion_input();
         let Some(open_scene) = &mut self.session.open_scene else { return false };
@@ -63,11 +63,11 @@ impl Viewer {
         input.is_moving() || open_scene.controller.is_moving()
     }
 
-    /// Lays out the panels. Returns their triangles and the actions that they request.
+    /// Lays out the panels. Returns the triangles of the panels and the requested actions.
     fn lay_out(&mut self) -> (PanelShapes, Vec<Action>) {
         let open_scene = self.session.open_scene.as_ref();
         let settings = self.next_settings();
-        // The sizes need the area of the scene, which is summed only for the page that shows them.
+        // Mesh sizes depend on the area of the scene. It is summed only if the page that shows the sizes is open.
         let scene_of_page = open_scene.filter(|_| self.panels.preferences.tab == Tab::Solution);
         let next_bake = scene_of_page.map(|open_scene| (settings, open_scene.mesh_sizes(&settings)));
         let curve = self.session.curve();
@@ -97,7 +97,7 @@ impl Viewer {
         self.surface.present(&self.window, picture, panels)
     }
 
-    /// Requests the next frame if one is due. Returns until when there is nothing to do.
+    /// Requests the next frame if one is due. Returns how long the event loop may sleep.
     pub fn plan(&mut self) -> ControlFlow {
         let now = Instant::now();
         let refinement = &self.picture.refinement;
@@ -117,7 +117,7 @@ impl Viewer {
     }
 }
 
-/// Size in pixels of a rectangle at the top left corner of the window.
+/// Computes the size, in pixels, of a rectangle at the top left corner of the window.
 fn pixels(free: egui::Rect, pixels_per_point: f32, window: [u32; 2]) -> [u32; 2] {
     let side = |points: f32, limit: u32| ((points * pixels_per_point).ceil() as u32).clamp(1, limit.max(1));
     [side(free.right(), window[0]), side(free.bottom(), window[1])]

@@ -17,7 +17,7 @@ pub struct Gui {
 }
 
 impl Gui {
-    /// Panels for `window`, at its scale.
+    /// Creates the panels of `window` at its scale.
     #[must_use]
     pub fn new(window: &Window, max_texture_side: u32) -> Self {
         let ctx = egui::Context::default();
@@ -38,13 +38,13 @@ impl Gui {
         self.state.on_window_event(window, event)
     }
 
-    /// The pointer is over a panel or drags one of its widgets.
+    /// Returns true if the pointer is over a panel or drags one of its widgets.
     #[must_use]
     pub fn has_pointer(&self) -> bool {
         self.ctx.egui_wants_pointer_input() || self.ctx.is_pointer_over_egui()
     }
 
-    /// Keys are typed into a text field.
+    /// Returns true if keys are typed into a text field.
     #[must_use]
     pub fn has_keyboard(&self) -> bool {
         self.ctx.text_edit_focused()

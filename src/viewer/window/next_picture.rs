@@ -14,13 +14,13 @@ use crate::viewer::solution::traced_view::{self, TracedViewRequest, with_fixed_e
 use crate::viewer::window::shadow_notes;
 use crate::viewer::window::viewer::Viewer;
 
-/// Rest after which a sketch is replaced by a finer picture.
+/// Time without a change after which a sketch is replaced by a finer picture.
 const SKETCH_TIME: Duration = Duration::from_millis(250);
-/// Rest after which tracing of the view begins.
+/// Time without a change after which tracing of the view begins.
 const STILL_TIME: Duration = Duration::from_millis(600);
 
 impl Viewer {
-    /// The picture to draw; `None` if the last one is still right.
+    /// Returns the picture to draw; `None` if the last one is still valid.
     pub fn next_picture(&mut self) -> Option<NextPicture> {
         let content = self.picture_content()?;
         let change = self.surface.canvas.change(&content);
@@ -40,7 +40,7 @@ impl Viewer {
         Some(NextPicture { content, detail, batch, is_partial: false })
     }
 
-    /// The level of detail in which a picture has to be drawn after `change`; `None` if none has to be drawn.
+    /// Returns the level of detail of the picture after `change`; `None` if no new picture is needed.
     fn next_detail(&mut self, change: Change) -> Option<Detail> {
         let canvas = &self.surface.canvas;
         let at_rest =
@@ -99,7 +99,7 @@ impl Viewer {
         })
     }
 
-    /// Notes the known fault and the number of light samples of a new picture.
+    /// Stores the known fault and the number of light samples of a new picture.
     fn note_shadows(&mut self, content: &PictureContent) {
         let scene = content.shadows.scene();
         let shadows = content.settings.shadows.as_ref();
@@ -109,7 +109,7 @@ impl Viewer {
         notes.num_light_samples = shadows.map_or(0, |settings| settings.samples(&content.shadows).len());
     }
 
-    /// Begins to trace the view once nothing has changed for long enough, if that is switched on.
+    /// Begins to trace the view after [`STILL_TIME`] without a change, if tracing at rest is switched on.
     fn trace_at_rest(&mut self, content: &PictureContent) {
         let is_on = self.panels.preferences.traces_stills;
         let refinement = &mut self.picture.refinement;

@@ -1,5 +1,5 @@
-//! Pacing of frames: one is drawn only after something has changed, no faster than the screen refreshes, and during a bake
-//! with pauses in which the bake proceeds.
+//! Pacing of frames. A frame is drawn only after something has changed, and no faster than the screen refreshes. During
+//! a bake each frame is followed by a pause in which the bake proceeds.
 
 use std::fs::File;
 use std::io::{BufWriter, Write};
@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 
-/// Pause after a frame during a bake, as a share of the time of the frame; at least [`SHORTEST_PAUSE`].
+/// Pause after a frame during a bake, as a fraction of the time of the frame; at least [`SHORTEST_PAUSE`].
 const PAUSE_SHARE: f32 = 0.25;
 /// Shortest pause after a frame during a bake.
 const SHORTEST_PAUSE: Duration = Duration::from_millis(8);
@@ -17,13 +17,13 @@ const SMOOTHING: f32 = 0.1;
 
 /// Decides when the next frame is due, and measures frames.
 pub struct Pacer {
-    /// When the next frame was requested; `None` if none is.
+    /// Time at which the next frame was requested; `None` if none is.
     requested: Option<Instant>,
     /// Shortest time between two frames.
     interval: Duration,
     began: Instant,
     ended: Instant,
-    /// The frame was requested as soon as the last one was drawn, as during a movement.
+    /// True if the frame was requested right after the last one, which is the case during a movement.
     is_continuous: bool,
     frame_seconds: f32,
     last_seconds: f32,
@@ -32,7 +32,8 @@ pub struct Pacer {
 }
 
 impl Pacer {
-    /// A pacer for a screen with `refresh_rate`, hertz, that writes the times of frames into `log` if it is given.
+    /// Creates a pacer for a screen with `refresh_rate`, hertz. It writes the times of frames into `log` if that is
+    /// given.
     ///
     /// # Errors
     /// Returns an error if the log cannot be written.
@@ -44,7 +45,8 @@ impl Pacer {
         let now = Instant::now();
         Ok(Self {
             requested: Some(now),
-            // Slightly shorter than the interval of the screen, which synchronises frames.
+            // Presentation synchronises frames with the screen, so the interval is slightly shorter than that of the
+            // screen.
             interval: Duration::from_secs_f32(0.8 / refresh_rate.max(1.0)),
             began: now,
             ended: now,
@@ -61,7 +63,7 @@ impl Pacer {
         self.requested.get_or_insert_with(Instant::now);
     }
 
-    /// When the requested frame is to be drawn; `None` if none is requested.
+    /// Returns when the requested frame is to be drawn; `None` if none is requested.
     #[must_use]
     pub fn due(&self, is_baking: bool) -> Option<Instant> {
         self.requested?;
@@ -73,7 +75,7 @@ impl Pacer {
         Some(steady.max(self.ended + pause))
     }
 
-    /// Begins a frame. Returns the time that motion covers, seconds.
+    /// Begins a frame. Returns the time by which motion advances, seconds.
     pub fn begin(&mut self) -> f32 {
         let now = Instant::now();
         self.is_continuous = self.requested.is_some_and(|requested| requested <= self.ended + Duration::from_millis(1));
@@ -83,11 +85,13 @@ impl Pacer {
         if self.is_continuous { since.as_secs_f32() } else { self.interval.as_secs_f32() }
     }
 
-    /// Ends a frame, which is on the screen. Logs `SECONDS BAKING`: the time since the request, and 1 during a bake.
+    /// Ends a frame that is on the screen. Logs `SECONDS BAKING`: the time since the request, and 1 during a bake,
+    /// otherwise 0.
     pub fn end(&mut self, is_baking: bool) {
         let now = Instant::now();
         let requested = self.requested.take().unwrap_or(self.began);
-        // During a movement the frame was requested when the last one was shown: this is the interval between both.
+        // During a movement a frame is requested when the last one is shown. `gap` is then the interval between two
+        // frames.
         let gap = (now - requested).as_secs_f32();
         self.last_seconds = (now - self.began).as_secs_f32();
         smooth(&mut self.frame_seconds, self.last_seconds);
@@ -101,19 +105,19 @@ impl Pacer {
         }
     }
 
-    /// Time that the last frame took to draw, seconds.
+    /// Returns the time that the last frame took to draw, seconds.
     #[must_use]
     pub fn last_seconds(&self) -> f32 {
         self.last_seconds
     }
 
-    /// Time that a frame takes to draw, smoothed, seconds.
+    /// Returns the smoothed time that a frame takes to draw, seconds.
     #[must_use]
     pub fn frame_seconds(&self) -> f32 {
         self.frame_seconds
     }
 
-    /// Frames a second during movements, smoothed; 0 before the first.
+    /// Returns the smoothed number of frames per second during movements; 0 before the first.
     #[must_use]
     pub fn frame_rate(&self) -> f32 {
         if self.gap_seconds > 0.0 { 1.0 / self.gap_seconds } else { 0.0 }

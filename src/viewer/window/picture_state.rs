@@ -6,41 +6,41 @@ use crate::viewer::picture::marks_cache::MarksCache;
 
 /// State of the picture behind the panels.
 pub struct PictureState {
-    /// Pixels across and down that the panels leave for it.
+    /// Width and height of the area that the panels leave free, pixels.
     pub size: [u32; 2],
-    /// Marks over it.
+    /// Marks drawn over the picture.
     pub marks: MarksCache,
-    /// How it improves at rest.
+    /// Progressive refinement of the picture at rest.
     pub refinement: Refinement,
-    /// What is known about it.
+    /// Facts about the last picture.
     pub notes: PictureNotes,
 }
 
-/// How the picture improves while nothing changes.
+/// Progressive refinement of the picture while nothing changes.
 pub struct Refinement {
-    /// When a sketch is replaced by a finer picture.
+    /// Time at which a sketch is replaced by a finer picture.
     pub sketch_ends: Option<Instant>,
-    /// When tracing of the view begins.
+    /// Time at which tracing of the view begins.
     pub tracing_begins: Option<Instant>,
-    /// Tracing at rest was switched on in the last frame.
+    /// True if tracing at rest was switched on in the last frame.
     pub was_tracing_on: bool,
     /// Light samples that each frame adds.
     pub samples_per_frame: usize,
 }
 
-/// What is known about the last picture.
+/// Facts about the last picture.
 #[derive(Default)]
 pub struct PictureNotes {
-    /// Rays a pixel; `None` unless it is traced.
+    /// Rays per pixel; `None` if the picture is not traced.
     pub num_rays: Option<u32>,
-    /// A known fault of its shadows.
+    /// Known fault of the shadows of the picture.
     pub fault: Option<String>,
-    /// Number of its light samples.
+    /// Number of light samples of the picture.
     pub num_light_samples: usize,
 }
 
 impl PictureState {
-    /// A picture of `size` that has not been drawn yet.
+    /// Creates the state of a picture of `size` that has not been drawn yet.
     #[must_use]
     pub fn new(size: [u32; 2]) -> Self {
         let refinement =
@@ -48,7 +48,7 @@ impl PictureState {
         Self { size, marks: MarksCache::default(), refinement, notes: PictureNotes::default() }
     }
 
-    /// Width over height.
+    /// Returns the aspect ratio, width / height.
     #[must_use]
     pub fn aspect(&self) -> f32 {
         self.size[0] as f32 / self.size[1] as f32

@@ -34,7 +34,7 @@ impl Measurements {
         self.pins.extend(self.last.take());
     }
 
-    /// All readings, the pinned ones first.
+    /// Returns all readings, the pinned ones first.
     #[must_use]
     pub fn readings(&self) -> Vec<Reading> {
         self.pins.iter().chain(&self.last).cloned().collect()

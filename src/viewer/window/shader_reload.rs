@@ -1,5 +1,5 @@
-//! Hot reload of shaders: a change of their files is shown in the next frame, and an error is shown while the old shaders
-//! stay in use.
+//! Hot reload of shaders. A change of their files shows in the next frame. If a shader is invalid, its error is shown
+//! and the old shaders stay in use.
 
 use std::path::PathBuf;
 
@@ -21,7 +21,7 @@ impl Viewer {
         self.reload_shaders();
     }
 
-    /// Reads the files of the shaders in use again. If all are valid and one has changed, everything that draws is made anew.
+    /// Reads the shader files again. If all are valid and one has changed, rebuilds everything that draws.
     pub fn reload_shaders(&mut self) {
         match self.surface.gpu.shaders.reload() {
             Ok(has_changed) => {

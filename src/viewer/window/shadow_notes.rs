@@ -3,7 +3,7 @@
 use crate::render::shadow::KnownFault;
 use crate::scene::Scene;
 
-/// The message about a fault.
+/// Returns the message about a fault.
 #[must_use]
 pub fn message_about(fault: KnownFault, scene: &Scene) -> String {
     let name = |lamp: usize| match scene.lights.get(lamp).map(|light| light.name.as_str()) {

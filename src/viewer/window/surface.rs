@@ -14,12 +14,12 @@ use crate::viewer::panels::shapes::{EMPTY, PanelShapes, begin_pass};
 use crate::viewer::picture::content::NextPicture;
 use crate::viewer::software::kept_side::KeptSide;
 
-/// Most attempts to configure the surface.
+/// Largest number of attempts to configure the surface.
 const MAX_ATTEMPTS: usize = 1000;
 /// Pause between two attempts.
 const PAUSE: Duration = Duration::from_millis(2);
 
-/// The window's device and surface, and what is drawn into it.
+/// The device and surface of the window, and the renderers that draw into it.
 pub struct WindowSurface {
     /// The window's device; a bake has another one.
     pub gpu: Arc<Gpu>,
@@ -28,7 +28,7 @@ pub struct WindowSurface {
     /// The picture behind the panels.
     pub canvas: Canvas,
     panel_renderer: egui_wgpu::Renderer,
-    /// Keeps the pixels of the side panel on a software driver; `None` on hardware.
+    /// Cached pixels of the side panel on a software driver; `None` on hardware.
     side: Option<KeptSide>,
 }
 
@@ -58,7 +58,8 @@ impl WindowSurface {
         let config = configuration(&gpu, &surface, window.inner_size())?;
         configure(&gpu, &surface, &config)?;
         let canvas = new_canvas(&gpu, config.format);
-        // Panels of plain colours need no dithering, which takes a software driver longer than the panels themselves.
+        // Panels of plain colours need no dithering. On a software driver it would take longer than the panels
+        // themselves.
         let options = egui_wgpu::RendererOptions { dithering: false, ..Default::default() };
         let panel_renderer = egui_wgpu::Renderer::new(&gpu.device, config.format, options);
         let side = canvas.is_software().then(KeptSide::default);
@@ -84,14 +85,14 @@ impl WindowSurface {
         Ok(())
     }
 
-    /// Makes everything anew that draws the picture, from the shaders in force.
+    /// Rebuilds everything that draws the picture from the current shaders.
     pub fn renew_canvas(&mut self) {
         self.canvas = new_canvas(&self.gpu, self.config.format);
     }
 
-    /// Draws and presents a frame: the next picture, or else the last one, and the panels on top.
+    /// Draws and presents a frame: the new picture, or the last one if `picture` is `None`, and the panels on top.
     pub fn present(&mut self, window: &Window, picture: Option<NextPicture>, mut panels: PanelShapes) -> FrameOutcome {
-        // This is done even if the frame fails: egui reports each change of a texture only once.
+        // egui reports each change of a texture only once, so textures are updated even if the frame fails.
         self.update_textures(&panels.textures);
         let outcome = self.present_updated(window, picture, &mut panels);
         for id in &panels.textures.free {
@@ -182,7 +183,7 @@ impl WindowSurface {
     }
 }
 
-/// The canvas, with its shaders compiled if a software driver would compile them during the first frames.
+/// Creates the canvas. On a software driver its shaders are compiled now instead of during the first frames.
 fn new_canvas(gpu: &Gpu, format: wgpu::TextureFormat) -> Canvas {
     let mut canvas = Canvas::new(gpu, format);
     if canvas.is_software() {
@@ -191,8 +192,8 @@ fn new_canvas(gpu: &Gpu, format: wgpu::TextureFormat) -> Canvas {
     canvas
 }
 
-/// Configures a surface. wgpu refuses while another thread submits work to the device, as a bake does with its light, so
-/// that is tried again for two seconds.
+/// Configures a surface. wgpu refuses while another thread submits work to the device, for example a bake that uploads
+/// light. The call is therefore repeated for two seconds.
 fn configure(gpu: &Gpu, surface: &wgpu::Surface<'_>, config: &wgpu::SurfaceConfiguration) -> anyhow::Result<()> {
     let mut last = None;
     for _ in 0..MAX_ATTEMPTS {
@@ -209,8 +210,8 @@ fn configure(gpu: &Gpu, surface: &wgpu::Surface<'_>, config: &wgpu::SurfaceConfi
     Err(anyhow::anyhow!("the window cannot be drawn into at {}x{} pixels: {cause}", config.width, config.height))
 }
 
-/// The configuration of the surface: synchronised with the screen, and of a format without sRGB conversion, since picture and
-/// panels encode sRGB themselves and panels blend in that space.
+/// Returns the configuration of the surface. It is synchronised with the screen. Its format has no sRGB conversion,
+/// since picture and panels encode sRGB themselves and panels blend in that space.
 fn configuration(
     gpu: &Gpu,
     surface: &wgpu::Surface<'_>,

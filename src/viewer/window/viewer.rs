@@ -43,12 +43,12 @@ pub struct Viewer {
     pub results: Results,
     /// Name of the graphics adapter.
     pub adapter: String,
-    /// Bake settings of the command line.
+    /// Bake settings from the command line.
     given_settings: BakeSettings,
     saved: SavedPreferences,
     /// Watches the files of the shaders.
     pub shader_watch: Option<FileWatch>,
-    /// A failure after which the window cannot draw.
+    /// Error after which the window cannot draw.
     pub failure: Option<anyhow::Error>,
 }
 
@@ -97,7 +97,7 @@ impl Viewer {
         })
     }
 
-    /// What opens the same scene again: the window, options, and pose of the camera.
+    /// Returns what is needed to open the same scene again: the window, the options, and the pose of the camera.
     pub fn reopening(&self, options: &ViewerOptions) -> (Arc<Window>, ViewerOptions, Option<CameraPose>) {
         let scene = Some(self.session.name());
         let variant = self.session.variant().map(str::to_owned);
@@ -106,25 +106,25 @@ impl Viewer {
         (Arc::clone(&self.window), options, pose)
     }
 
-    /// This viewer replaces one whose device was lost: it keeps the pose of the camera and shows why.
+    /// Restores the pose of the camera after the loss of a device, and shows a message with the reason.
     pub fn after_loss(mut self, error: &anyhow::Error, pose: Option<CameraPose>) -> Self {
         self.session.keep_pose(pose);
         self.notify(format!("The graphics device was lost and has been replaced: {error:#}"));
         self
     }
 
-    /// Settings of the next bake: those of the command line, or another preset if the user has chosen one.
+    /// Returns the settings of the next bake: those of the command line, or another preset if the user has chosen one.
     pub fn next_settings(&self) -> BakeSettings {
         let is_as_given = self.panels.quality == self.given_settings.quality;
         if is_as_given { self.given_settings } else { BakeSettings::preset(self.panels.quality) }
     }
 
-    /// The solved light of the open scene.
+    /// Returns the solved light of the open scene.
     pub fn solved(&self) -> Option<Arc<SolvedScene>> {
         self.session.open_scene.as_ref()?.solved.clone()
     }
 
-    /// The exposure that was metered for the last picture, stops.
+    /// Returns the exposure that was metered for the last picture, stops.
     pub fn metered_ev(&self) -> Option<f32> {
         self.surface.canvas.metered_ev(&self.surface.gpu)
     }
@@ -154,7 +154,7 @@ impl Viewer {
         }
     }
 
-    /// Ends all jobs and drops their results, since the light that they belong to is replaced.
+    /// Ends all jobs and drops their results. Called when the light that they were computed from is replaced.
     pub fn discard_results(&mut self) {
         self.jobs.end_all();
         self.panels.replay = Default::default();

@@ -1,4 +1,4 @@
-//! Measures of the person who walks.
+//! Dimensions of the person who walks.
 
 /// Height of the eyes above the floor, metres.
 const EYE_HEIGHT: f32 = 1.65;
@@ -9,10 +9,10 @@ const RADIUS: f32 = 0.25;
 /// Highest step that is climbed without a jump, metres.
 const STEP: f32 = 0.4;
 
-/// Measures of a walker, metres.
+/// Dimensions of a walker, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Body {
-    /// Radius of the balls that make up the body.
+    /// Radius of the collision spheres of the body.
     pub radius: f32,
     /// Height of the eyes above the floor.
     pub eye_height: f32,
@@ -20,12 +20,13 @@ pub struct Body {
     pub height: f32,
     /// Highest step that is climbed without a jump.
     pub step: f32,
-    /// Factor on gravity: falls look alike at every scale.
+    /// Scale of the body. Gravity is multiplied by it too, so a fall by one body height takes the same time at every
+    /// scale.
     pub scale: f32,
 }
 
 impl Body {
-    /// An adult, scaled by `scale`.
+    /// Returns the dimensions of an adult, multiplied by `scale`.
     #[must_use]
     pub fn of_scale(scale: f32) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! A person who walks through the scene: gravity, steps, walls to slide along, and no way out of the world.
+//! A person who walks through the scene: gravity, steps, sliding along walls, return after a fall out of the scene.
 
 mod body;
 mod walker;

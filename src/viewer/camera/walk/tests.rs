@@ -8,7 +8,7 @@ use crate::viewer::camera::collider::Collider;
 
 const FRAME: f32 = 1.0 / 60.0;
 
-/// A scene of quadrilaterals.
+/// Builds a scene of quadrilaterals.
 fn world(quads: &[[Vec3; 4]]) -> Collider {
     let mut builder = SceneBuilder::default();
     let grey = builder.material(Material::diffuse(Vec3::splat(0.5)));
@@ -18,12 +18,12 @@ fn world(quads: &[[Vec3; 4]]) -> Collider {
     Collider::new(&builder.build())
 }
 
-/// A level rectangle at height `y`.
+/// Returns a level rectangle at height `y`.
 fn level(y: f32, x: [f32; 2], z: [f32; 2]) -> [Vec3; 4] {
     [(0, 1), (1, 1), (1, 0), (0, 0)].map(|(i, j)| Vec3::new(x[i], y, z[j]))
 }
 
-/// A vertical wall at `z`.
+/// Returns a vertical wall at `z`.
 fn wall(z: f32, x: [f32; 2], y: [f32; 2]) -> [Vec3; 4] {
     [(0, 0), (1, 0), (1, 1), (0, 1)].map(|(i, j)| Vec3::new(x[i], y[j], z))
 }
@@ -93,7 +93,7 @@ fn walkers_stay_in_corners() {
     assert!((eye.x - 1.75).abs() < 0.02 && (eye.z + 1.75).abs() < 0.02, "{eye}");
 }
 
-/// Six steps up to a landing, beginning at z = -1.
+/// Returns six steps up to a landing; the first is at z = -1.
 fn stairs(rise: f32) -> Vec<[Vec3; 4]> {
     let mut quads = vec![floor()];
     for step in 0..6 {

@@ -1,57 +1,58 @@
 //! Movement of the walker: sliding along walls, climbing steps, falling.
 //!
-//! The body is a stack of balls that begins one step height above the floor: low obstacles pass below it, and the rays
-//! that find the floor lift it on to them. Movement is cut into pieces shorter than the radius of the body, so that no
-//! wall is passed through, however long a frame takes.
+//! The body is a stack of collision spheres. The lowest begins one step height above the floor, so low obstacles do not
+//! stop it; the rays that find the floor lift the body onto them. Movement is cut into pieces shorter than the radius
+//! of the body, so that it passes through no wall, however long a frame takes.
 
 use glam::Vec3;
 
 use super::body::Body;
 use crate::viewer::camera::collider::{Collider, Surface};
 
-/// Least vertical component of the unit normal of a floor: steeper surfaces than 50 degrees do not carry a walker.
+/// Smallest vertical component of the unit normal of a floor. A walker cannot stand on surfaces steeper than 50
+/// degrees.
 const MIN_FLOOR_NORMAL: f32 = 0.643;
 /// Standard gravity, m/s2.
 const GRAVITY: f32 = 9.81;
 /// Terminal speed of a fall, m/s.
 const MAX_FALL_SPEED: f32 = 50.0;
-/// Time constant in which the eye follows the height of a step, seconds.
+/// Time constant with which the eye follows the height of a step, seconds.
 const STEP_TIME: f32 = 0.06;
 
 /// A walker: the point of the floor below it, and the state of its fall.
 #[derive(Clone, Copy, Debug)]
 pub struct Walker {
-    /// Measures of the body.
+    /// Dimensions of the body.
     pub body: Body,
     feet: Vec3,
     fall_speed: f32,
     is_grounded: bool,
     /// Position when it last stood on a floor.
     safe: Vec3,
-    /// Height of the eye above its place in the body: it follows a step with a delay, metres.
+    /// Height of the eye above its resting place in the body, metres. The eye follows a step with a delay.
     eye_lag: f32,
 }
 
 impl Walker {
-    /// Sets a walker on the floor below `eye`; `None` if there is no floor.
+    /// Puts a walker on the floor below `eye`; `None` if there is no floor.
     #[must_use]
     pub fn land(body: Body, eye: Vec3, collider: &Collider) -> Option<Self> {
         let floor = collider.below(eye, f32::MAX)?;
         let feet = Vec3::new(eye.x, floor.height, eye.z);
-        // The eye moves smoothly from where it is to its place in the body.
+        // The eye moves smoothly from `eye` to its resting place in the body.
         let eye_lag = eye.y - (feet.y + body.eye_height);
         let mut walker = Self { body, feet, fall_speed: 0.0, is_grounded: true, safe: feet, eye_lag };
         walker.feet = walker.pushed_out(feet, collider).unwrap_or(feet);
         Some(walker)
     }
 
-    /// Position of the eye.
+    /// Returns the position of the eye.
     #[must_use]
     pub fn eye(&self) -> Vec3 {
         self.feet + Vec3::Y * (self.body.eye_height + self.eye_lag)
     }
 
-    /// The walker falls, or the eye still follows a step.
+    /// Returns true if the walker falls or the eye still follows a step.
     #[must_use]
     pub fn is_moving(&self) -> bool {
         !self.is_grounded || self.eye_lag != 0.0
@@ -74,7 +75,7 @@ impl Walker {
         }
     }
 
-    /// Moves by one piece: forward, then out of walls; along a slope that is too steep to climb.
+    /// Moves by one piece: forward, then out of walls. The walker slides along a slope that is too steep to climb.
     fn slide(&mut self, piece: Vec3, collider: &Collider) {
         let Some(target) = self.pushed_out(self.feet + piece, collider) else { return };
         if let Some(slope) = self.slope_in_the_way(target, collider) {
@@ -87,25 +88,26 @@ impl Walker {
         }
     }
 
-    /// The surface at `feet` if it rises above the floor and is too steep to stand on.
+    /// Returns the surface at `feet` if it rises above the floor and is too steep to stand on.
     fn slope_in_the_way(&self, feet: Vec3, collider: &Collider) -> Option<Surface> {
         let from = feet + Vec3::Y * self.body.step;
         let surface = collider.below(from, self.body.step)?;
         (surface.normal.y < MIN_FLOOR_NORMAL && surface.height > feet.y + 0.05 * self.body.step).then_some(surface)
     }
 
-    /// The body fits below the ceiling when it stands on the floor at `feet`.
+    /// Returns true if the body fits below the ceiling when it stands on the floor at `feet`.
     fn has_room(&self, feet: Vec3, collider: &Collider) -> bool {
         let rise = self.floor_at(feet, self.body.step, collider).map_or(0.0, |floor| (floor.height - feet.y).max(0.0));
         let knee = feet + Vec3::Y * self.body.step;
         rise == 0.0 || collider.above(knee, self.body.height + rise - self.body.step).is_none()
     }
 
-    /// Moves down by gravity to the floor, or up on to a step.
+    /// Moves down to the floor by gravity, or up onto a step.
     fn fall(&mut self, seconds: f32, collider: &Collider) {
         let speed = (self.fall_speed + GRAVITY * self.body.scale * seconds).min(MAX_FALL_SPEED * self.body.scale);
         let drop = 0.5 * (self.fall_speed + speed) * seconds;
-        // A walker on the floor follows stairs down; one that falls lands where the fall ends.
+        // A walker on the floor goes down by up to a step. A falling walker lands on a floor within the drop of this
+        // frame.
         let reach = if self.is_grounded { self.body.step } else { drop };
         match self.floor_at(self.feet, self.body.step + reach, collider) {
             Some(floor) => {
@@ -123,7 +125,7 @@ impl Walker {
         }
     }
 
-    /// The highest floor below five points at step height, at most `depth` metres below them.
+    /// Returns the highest floor below five points at step height, at most `depth` metres below them.
     fn floor_at(&self, feet: Vec3, depth: f32, collider: &Collider) -> Option<Surface> {
         let knee = feet + Vec3::Y * self.body.step;
         let reach = 0.6 * self.body.radius;
@@ -139,7 +141,7 @@ impl Walker {
             .max_by(|a, b| a.height.total_cmp(&b.height))
     }
 
-    /// `feet` moved sideways until the body touches no wall; `None` if it does not fit between them.
+    /// Returns `feet` moved sideways until the body touches no wall; `None` if the body does not fit between the walls.
     fn pushed_out(&self, feet: Vec3, collider: &Collider) -> Option<Vec3> {
         const MAX_PUSHES: usize = 8;
         let mut free = feet;
@@ -152,7 +154,7 @@ impl Walker {
         None
     }
 
-    /// The largest sideways displacement that takes the body out of one surface.
+    /// Returns the largest sideways displacement that moves the body out of one surface.
     fn deepest_push(&self, feet: Vec3, collider: &Collider) -> Option<Vec3> {
         let Body { radius, height, step, .. } = self.body;
         let (lowest, highest) = (step + radius, height - radius);
@@ -163,7 +165,7 @@ impl Walker {
             collider.touches(centre, radius, |point| {
                 let away = centre - point;
                 let level = away.with_y(0.0).length();
-                // Floors and ceilings act up and down only; rays handle those.
+                // Floors and ceilings push up and down only. Vertical rays handle them.
                 if level < 1e-3 * radius {
                     return;
                 }
@@ -178,7 +180,7 @@ impl Walker {
         deepest
     }
 
-    /// Sets the walker back on its last floor after it has fallen out of the scene.
+    /// Puts the walker back on its last floor after it has fallen out of the scene.
     fn return_if_lost(&mut self, collider: &Collider) {
         if self.feet.y < collider.bounds().low.y - 2.0 * self.body.height {
             (self.feet, self.fall_speed, self.is_grounded, self.eye_lag) = (self.safe, 0.0, true, 0.0);

@@ -1,4 +1,4 @@
-//! Moves the camera to places: cameras of the file, bookmarks, instances, locations of advice.
+//! Actions that move the camera: to cameras of the file, bookmarks, instances, locations of advice.
 
 use crate::base::bounds::Bounds;
 use crate::base::ids::TriangleId;
@@ -54,7 +54,7 @@ impl Viewer {
         }
     }
 
-    /// Marks the locations of a piece of advice and frames the one after the last.
+    /// Marks the locations of a piece of advice and frames the next of them.
     fn show_advice(&mut self, index: usize) {
         let aspect = self.picture.aspect();
         let Some(OpenScene { controller, advice, .. }) = &mut self.session.open_scene else { return };
@@ -96,13 +96,13 @@ impl Viewer {
     }
 }
 
-/// Bounding box of an instance.
+/// Computes the bounding box of an instance.
 fn bounds_of(scene: &Scene, index: usize) -> Option<Bounds> {
     let triangles = scene.instances.get(index)?.triangles.clone();
     Bounds::around(triangles.flat_map(|t| scene.corners(TriangleId::new(t))))
 }
 
-/// `index` plus `steps` in a ring of `count`.
+/// Returns `index + steps` modulo `count`.
 fn wrapped(index: usize, steps: isize, count: usize) -> usize {
     if count == 0 { 0 } else { (index as isize + steps).rem_euclid(count as isize) as usize }
 }

@@ -10,11 +10,11 @@ use crate::viewer::solution::patch_view::ChosenPatchView;
 use crate::viewer::solution::solved::SolvedScene;
 use crate::viewer::window::viewer::Viewer;
 
-/// Most hidden surfaces that a pick passes through.
+/// Largest number of hidden surfaces that a pick passes through.
 const MAX_HIDDEN: usize = 32;
 
 impl Viewer {
-    /// The surface that is visible at a pixel of the window.
+    /// Returns the visible surface at a pixel of the window.
     pub fn pick(&self, pixel: [f64; 2]) -> Option<Pick> {
         let open_scene = self.session.open_scene.as_ref()?;
         let [width, height] = self.picture.size.map(f64::from);
@@ -23,7 +23,7 @@ impl Viewer {
         let hidden = &self.panels.selection.hidden;
         let sees_back = !self.panels.light.see_through_backs;
         let direction = pose.direction(at, (width / height) as f32);
-        // Surfaces of hidden instances are passed one by one.
+        // The ray is continued behind each surface of a hidden instance.
         let mut from = pose.position;
         for _ in 0..MAX_HIDDEN {
             let is_opaque = |t| sees_back || open_scene.scene.material_of(t).double_sided;

@@ -1,4 +1,4 @@
-//! What keys, panels and clicks request, and how it is done. `perform` is the entry.
+//! Carries out the actions that keys, panels and clicks request. `perform` is the entry.
 
 mod camera;
 mod click;

@@ -1,4 +1,4 @@
-//! Writes files: pictures, bakes, readings.
+//! Actions that write files: pictures, bakes, readings.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

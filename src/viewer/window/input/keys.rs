@@ -11,7 +11,7 @@ use crate::viewer::camera::controller::MotionInput;
 pub struct Keys(HashSet<KeyCode>);
 
 impl Keys {
-    /// Notes that a key is pressed or released.
+    /// Records that a key is pressed or released.
     pub fn set(&mut self, key: KeyCode, is_down: bool) {
         if is_down {
             self.0.insert(key);
@@ -20,24 +20,24 @@ impl Keys {
         }
     }
 
-    /// Releases all keys, as after the window has lost the focus.
+    /// Releases all keys, for example when the window loses the focus.
     pub fn release_all(&mut self) {
         self.0.clear();
     }
 
-    /// Either control key is down.
+    /// Returns true if a control key is down.
     #[must_use]
     pub fn is_control_down(&self) -> bool {
         self.any(&[KeyCode::ControlLeft, KeyCode::ControlRight])
     }
 
-    /// Either Alt key is down.
+    /// Returns true if an Alt key is down.
     #[must_use]
     pub fn is_alt_down(&self) -> bool {
         self.any(&[KeyCode::AltLeft, KeyCode::AltRight])
     }
 
-    /// The movement that the keys request.
+    /// Returns the movement that the keys request.
     #[must_use]
     pub fn motion_input(&self) -> MotionInput {
         use KeyCode::*;

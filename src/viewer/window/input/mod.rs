@@ -1,4 +1,4 @@
-//! Keys and mouse.
+//! Input by keys and mouse.
 
 pub mod keys;
 pub mod mouse;

@@ -8,20 +8,20 @@ use winit::window::{CursorGrabMode, Window};
 
 /// Turn for one pixel of motion, radians.
 const TURN_PER_PIXEL: f32 = 0.0025;
-/// Motion within which a press is a click, pixels.
+/// Largest motion of a press that is a click, pixels.
 const CLICK_REACH: f32 = 4.0;
-/// Duration within which a press is a click.
+/// Longest duration of a press that is a click.
 const CLICK_TIME: Duration = Duration::from_millis(300);
 
 /// State of the mouse. Its motion turns the camera while a button is held, and while it is captured.
 #[derive(Debug, Default)]
 pub struct Mouse {
     state: State,
-    /// The system reports raw motion; otherwise the steps of the pointer are used.
+    /// True if the system reports raw motion. Otherwise the motion is the change of the pointer's position.
     has_raw_motion: bool,
     /// Last position of the pointer, pixels.
     pointer: Option<PhysicalPosition<f64>>,
-    /// Position to which the pointer is set back.
+    /// Position to which the pointer is set back after a drag or capture.
     start: Option<PhysicalPosition<f64>>,
 }
 
@@ -38,19 +38,19 @@ enum State {
 }
 
 impl Mouse {
-    /// Motion turns the camera.
+    /// Returns true if motion turns the camera.
     #[must_use]
     pub fn is_active(&self) -> bool {
         self.state != State::Free
     }
 
-    /// The mouse is captured until Escape or a press.
+    /// Returns true if the mouse is captured.
     #[must_use]
     pub fn is_captured(&self) -> bool {
         self.state == State::Captured
     }
 
-    /// A button is pressed over the picture.
+    /// Handles the press of a button over the picture.
     pub fn press(&mut self, button: MouseButton, window: &Window) {
         if self.is_captured() {
             self.set_free(window);
@@ -62,7 +62,7 @@ impl Mouse {
         }
     }
 
-    /// A button is released and ends a drag. Returns the position of a click of the left button, pixels.
+    /// Handles the release of a button, which ends a drag. Returns the position of a click of the left button, pixels.
     pub fn release(&mut self, button: MouseButton, window: &Window) -> Option<[f64; 2]> {
         let State::Dragging { button: dragging, since, travelled } = self.state else { return None };
         if dragging != button {
@@ -84,19 +84,19 @@ impl Mouse {
         }
     }
 
-    /// Position of the pointer, pixels from the corner of the window.
+    /// Returns the position of the pointer, pixels from the top left corner of the window.
     #[must_use]
     pub fn pointer(&self) -> Option<[f64; 2]> {
         self.pointer.map(|at| [at.x, at.y])
     }
 
-    /// Ends a drag or a capture; returns false if there was none.
+    /// Ends a drag or a capture. Returns false if there was none.
     pub fn set_free(&mut self, window: &Window) -> bool {
         if !self.is_active() {
             return false;
         }
         self.state = State::Free;
-        // The system may refuse both; the pointer then stays where it is.
+        // The system may refuse both. The pointer then stays where it is.
         let _ = window.set_cursor_grab(CursorGrabMode::None);
         if let Some(start) = self.start.take() {
             let _ = window.set_cursor_position(start);
@@ -105,7 +105,7 @@ impl Mouse {
         true
     }
 
-    /// The turn (left, up), radians, for raw motion in pixels (right, down).
+    /// Returns the turn (left, up), radians, for raw motion in pixels (right, down).
     pub fn raw_motion(&mut self, delta: (f64, f64)) -> Option<(f32, f32)> {
         if !self.is_active() {
             return None;
@@ -114,7 +114,8 @@ impl Mouse {
         self.turn(delta.0 as f32, delta.1 as f32)
     }
 
-    /// The turn (left, up), radians, for a new position of the pointer; `None` if the system reports raw motion.
+    /// Returns the turn (left, up), radians, for a new position of the pointer; `None` if the system reports raw
+    /// motion.
     pub fn pointer_motion(&mut self, to: PhysicalPosition<f64>) -> Option<(f32, f32)> {
         let from = self.pointer.replace(to)?;
         if !self.is_active() || self.has_raw_motion {

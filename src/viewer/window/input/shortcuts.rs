@@ -1,6 +1,7 @@
-//! Actions of keys.
+//! Keyboard shortcuts: the action of each key.
 //!
-//! Letters are identified by their position on the keyboard, like the keys of movement; signs by their symbol.
+//! Letters are identified by their position on the keyboard, as the keys of movement are. Other signs are identified by
+//! their symbol.
 
 use winit::event::KeyEvent;
 use winit::keyboard::{Key, KeyCode, PhysicalKey};
@@ -8,7 +9,7 @@ use winit::keyboard::{Key, KeyCode, PhysicalKey};
 use crate::viewer::action::Action;
 use crate::viewer::settings::tool::Tool;
 
-/// The action of a key press.
+/// Returns the action of a key press.
 #[must_use]
 pub fn action_of(event: &KeyEvent, is_control_down: bool) -> Option<Action> {
     if let Key::Character(sign) = &event.logical_key {
@@ -26,7 +27,7 @@ pub fn action_of(event: &KeyEvent, is_control_down: bool) -> Option<Action> {
     }
 }
 
-/// The action of a number key: goes to a bookmark, or sets it with control.
+/// Returns the action of a number key: go to a bookmark; with control, set it.
 fn bookmark(code: KeyCode, is_control_down: bool) -> Option<Action> {
     use KeyCode::*;
     let digits = [Digit1, Digit2, Digit3, Digit4, Digit5, Digit6, Digit7, Digit8, Digit9];
