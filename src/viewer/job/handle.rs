@@ -16,14 +16,14 @@ pub(super) struct Controls {
 }
 
 impl Controls {
-    /// Asks the job to end, also if it is paused.
+    /// Requests that the job ends, even if it is paused.
     pub fn end(&self) {
         self.cancel.cancel();
         self.gate.open();
     }
 }
 
-/// A job as seen from its own thread: sends results, and says when to pause and when to end.
+/// A job as seen from its own thread. It sends results, and pauses or cancels the work.
 pub struct JobHandle {
     pub(super) number: u32,
     pub(super) controls: Arc<Controls>,

@@ -10,7 +10,7 @@ use super::handle::{Controls, Deliver, JobHandle};
 use super::result::JobResult;
 use crate::viewer::background::lower_priority;
 
-/// Kinds of jobs. At most one job of each kind runs: a new one ends the last.
+/// Kinds of jobs. At most one job of each kind runs: a new one ends the previous one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum JobKind {
     /// Measures a point or a grid.
@@ -34,7 +34,7 @@ pub struct Jobs {
     deliver: Deliver,
     last_number: u32,
     running: HashMap<JobKind, Job>,
-    /// Jobs that are asked to end; dropped when they have ended.
+    /// Cancelled jobs, dropped when they have ended.
     retired: Vec<Job>,
 }
 
@@ -45,7 +45,7 @@ struct Job {
 }
 
 impl Jobs {
-    /// No job runs. `deliver` receives the number and the result of a job, in the thread of the job.
+    /// Creates an empty list. `deliver` is called with the number and a result of a job, in the thread of the job.
     #[must_use]
     pub fn new(deliver: impl Fn(u32, JobResult) + Send + Sync + 'static) -> Self {
         Self { deliver: Arc::new(deliver), last_number: 0, running: HashMap::new(), retired: Vec::new() }
@@ -84,13 +84,13 @@ impl Jobs {
         JobKind::ALL.into_iter().for_each(|kind| self.end(kind));
     }
 
-    /// A job of this kind is running.
+    /// Returns true if a job of this kind is running.
     #[must_use]
     pub fn is_running(&self, kind: JobKind) -> bool {
         self.running.get(&kind).is_some_and(|job| !job.is_finished())
     }
 
-    /// The job with this number has not been ended: its results are wanted.
+    /// Returns true if the job with this number has not been ended, so that its results are still used.
     #[must_use]
     pub fn is_current(&self, number: u32) -> bool {
         self.running.values().any(|job| job.number == number)
@@ -114,7 +114,7 @@ impl Job {
 }
 
 impl Drop for Job {
-    /// Waits for the thread: the device must outlive its work.
+    /// Waits for the thread, since the device must outlive its work.
     fn drop(&mut self) {
         self.controls.end();
         if let Some(thread) = self.thread.take() {

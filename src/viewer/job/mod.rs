@@ -1,5 +1,5 @@
-//! Jobs that a click or a key starts: each runs in a thread of its own, pauses while a frame is drawn, and sends results
-//! to the window. Measurements, patch views, traced views, recordings and files are made by jobs.
+//! Jobs that a click or a key starts: measurements, patch views, traced views, recordings and files. Each runs in a
+//! thread of its own, pauses while a frame is drawn, and sends results to the window.
 
 mod handle;
 mod jobs;

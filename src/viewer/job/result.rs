@@ -27,7 +27,7 @@ pub enum JobResult {
 }
 
 impl JobResult {
-    /// The failure with the causes of `error`.
+    /// Returns the failure with the causes of `error`.
     #[must_use]
     pub fn failed(error: &anyhow::Error) -> Self {
         Self::Failed(format!("{error:#}"))

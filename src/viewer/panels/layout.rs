@@ -35,7 +35,7 @@ pub struct Panels {
     pub light: LightSettings,
     /// Preset of the next bake.
     pub quality: Quality,
-    /// Preferences that are kept between runs.
+    /// Preferences that are stored between runs.
     pub preferences: Preferences,
     /// What a click in the picture does.
     pub tool: Tool,
@@ -45,11 +45,11 @@ pub struct Panels {
     pub shown_advice: Option<AdviceLocation>,
     /// Layout of measured grids.
     pub grid: GridSettings,
-    /// Form factors of the chosen patch are shown as a heat map.
+    /// True if the form factors of the chosen patch are shown as a heat map.
     pub shows_heat: bool,
     /// Settings of the time machine.
     pub replay: ReplaySettings,
-    /// The key sheet is shown.
+    /// True if the key sheet is shown.
     pub shows_help: bool,
     /// The dialog that opens a file, if it is open.
     pub dialog: Option<OpenDialog>,
@@ -61,7 +61,7 @@ pub struct Panels {
 }
 
 impl Panels {
-    /// Panels with these preferences.
+    /// Creates panels with these preferences.
     #[must_use]
     pub fn new(quality: Quality, preferences: Preferences) -> Self {
         Self {
@@ -82,7 +82,8 @@ impl Panels {
         }
     }
 
-    /// Instances that are tinted in the picture: the selected one, or those that are chosen to cast planar shadows.
+    /// Returns the instances that are tinted in the picture: the selected one, or those that are chosen to cast planar
+    /// shadows.
     #[must_use]
     pub fn chosen_instances(&self) -> BTreeSet<InstanceId> {
         match self.tool {
@@ -91,14 +92,14 @@ impl Panels {
         }
     }
 
-    /// True if the durations of passes are visible.
+    /// Returns true if the durations of passes are shown.
     #[must_use]
     pub fn shows_times(&self) -> bool {
         let is_unfolded = self.preferences.sections.get("Shadows").copied().unwrap_or(false);
         self.light.is_real_time && self.preferences.is_open && self.preferences.tab == Tab::Picture && is_unfolded
     }
 
-    /// Lays out all panels; returns the actions of the user and the area that is left for the picture.
+    /// Lays out all panels. Returns the actions of the user and the area that is left for the picture.
     pub fn ui(&mut self, ui: &mut Ui, facts: &Facts<'_>) -> (Vec<Action>, Rect) {
         let mut actions = Vec::new();
         egui::Panel::bottom("status").frame(theme::bar()).show(ui, |ui| status::status_ui(ui, facts));
@@ -119,7 +120,7 @@ impl Panels {
         (actions, free)
     }
 
-    /// What is drawn over the picture.
+    /// Draws what lies over the picture.
     fn picture_ui(&mut self, ui: &mut Ui, free: Rect, facts: &Facts<'_>) {
         if facts.scene.open.is_none() && self.trouble.is_none() {
             message::empty_ui(ui.ctx(), free, &facts.bake.light);

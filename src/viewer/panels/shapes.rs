@@ -1,15 +1,15 @@
 //! The panels as triangles, and the render pass that draws them.
 
-/// Colour of the window without picture and panels.
+/// Background colour of the window.
 pub(in crate::viewer) const EMPTY: wgpu::Color = wgpu::Color { r: 0.05, g: 0.055, b: 0.065, a: 1.0 };
 
-/// The panels of a frame.
+/// The panels of a frame as triangles.
 pub struct PanelShapes {
     /// Triangles, clipped to rectangles.
     pub primitives: Vec<egui::ClippedPrimitive>,
-    /// Textures that are new or no longer used.
+    /// Changes of textures: new ones, and those that are no longer used.
     pub textures: egui::TexturesDelta,
-    /// Pixels a point.
+    /// Pixels per point.
     pub pixels_per_point: f32,
     /// Area of the side panel, points; empty if it is hidden.
     pub side: egui::Rect,

@@ -10,20 +10,20 @@ const SURROUNDINGS: f32 = 0.5;
 /// A piece of advice about a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Advice {
-    /// The finding, and after a semicolon what to do.
+    /// The finding, a semicolon, and the remedy.
     pub text: String,
     /// Its locations, if it has any.
     pub locations: Vec<Location>,
 }
 
 impl Advice {
-    /// Advice without a location.
+    /// Creates advice without a location.
     #[must_use]
     pub fn new(text: impl Into<String>) -> Self {
         Self { text: text.into(), locations: Vec::new() }
     }
 
-    /// All advice about a scene.
+    /// Returns all advice about a scene.
     #[must_use]
     pub fn of_scene(scene: &Scene) -> Vec<Self> {
         let notes = scene.notes.iter().map(Self::new);
@@ -31,7 +31,7 @@ impl Advice {
         notes.chain(findings.map(|found| Self { text: found.line(), locations: found.locations })).collect()
     }
 
-    /// Bounding box of a location with a margin; `None` if there is no such location.
+    /// Returns the bounding box of a location with a margin; `None` if there is no such location.
     #[must_use]
     pub fn bounds(&self, location: usize) -> Option<Bounds> {
         let Bounds { low, high } = Bounds::around(self.locations.get(location)?.lines.iter().flatten().copied())?;
@@ -47,7 +47,7 @@ mod tests {
     #[test]
     fn findings_have_locations() {
         let mut scene = builtin::cornell();
-        // A hole in the room.
+        // Removing a triangle makes a hole in the room.
         scene.triangles.remove(0);
         let advice = Advice::of_scene(&scene);
         let open = advice.iter().find(|advice| advice.text.contains("open edge")).expect("the hole is found");

@@ -16,10 +16,10 @@ pub const NOTE: &str = "the file has no light: a default sky of 10 000 lx lights
 const ILLUMINANCE: f32 = 10_000.0;
 /// Colour, slightly bluer than white.
 const COLOUR: Vec3 = Vec3::new(0.94, 0.98, 1.08);
-/// Rings of suns: the number of suns and the sine of their altitude.
+/// Number of suns in each ring, and the sine of their altitude.
 const RINGS: [(u32, f32); 3] = [(8, 0.25), (6, 0.6), (3, 0.9)];
 
-/// The scene has triangles but no light.
+/// Returns true if the scene has triangles but no light.
 #[must_use]
 pub fn is_needed(scene: &Scene) -> bool {
     scene.light_groups.is_empty() && !scene.triangles.is_empty()
@@ -27,8 +27,8 @@ pub fn is_needed(scene: &Scene) -> bool {
 
 /// Adds a uniform dome of faint suns as a light group of its own.
 ///
-/// Equation: each sun has the illuminance E / sum(sin h) on a surface that faces it, with the sum over all suns at altitude h,
-/// so that together they give the horizontal illuminance E.
+/// Equation: each sun has the illuminance E / sum(sin h) on a surface that faces it; the sum is over all suns, at
+/// altitudes h. Together they give the horizontal illuminance E.
 pub fn add(scene: &mut Scene) {
     let group = GroupId::new(scene.light_groups.len());
     scene.light_groups.push("default sky".to_owned());

@@ -1,5 +1,5 @@
-//! Watches a file, or the shaders in a folder, for changes that another program writes: the scene is then loaded again, or
-//! the shaders are.
+//! Watches a file, or the shaders in a folder, for changes by another program. After a change the scene or the shaders
+//! are loaded again.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -11,7 +11,7 @@ use winit::event_loop::EventLoopProxy;
 
 use crate::viewer::session::user_event::UserEvent;
 
-/// Time between two checks; a file that is the same in two checks is complete.
+/// Time between two checks. A file that is the same in two checks counts as completely written.
 const INTERVAL: Duration = Duration::from_millis(700);
 
 /// Time of modification and size of each watched file.
@@ -65,7 +65,7 @@ impl Drop for FileWatch {
     }
 }
 
-/// The stamp of a file, or of all `.wgsl` files below a folder; empty if there is none.
+/// Reads the stamp of a file, or of all `.wgsl` files below a folder; empty if there is none.
 fn stamp(path: &Path) -> Stamp {
     let entries = |folder: &Path| std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
     let Ok(found) = std::fs::metadata(path) else { return Stamp::new() };

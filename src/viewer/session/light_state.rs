@@ -14,11 +14,11 @@ pub enum LightState {
     Working {
         /// The current stage.
         stage: Stage,
-        /// The part of the stage that is done, 0..1.
+        /// Completed fraction of the stage, 0..1.
         done: f32,
         /// Time since the work began.
         elapsed: Duration,
-        /// The user has cancelled it.
+        /// True if the user has cancelled the work.
         is_cancelled: bool,
     },
     /// The file stores its light.

@@ -1,4 +1,4 @@
-//! What is open: the scene, its light, the file it comes from, and the worker that loads and bakes it.
+//! The open scene, its light, its file, and the worker that loads and bakes it.
 
 mod default_sky;
 mod state;

@@ -23,7 +23,7 @@ use crate::viewer::settings::view::ReplaySettings;
 use crate::viewer::solution::recording::Recording;
 use crate::viewer::solution::solved::SolvedScene;
 
-/// Quantiles of the illuminance that a fitted scale begins and ends with.
+/// Quantiles of the illuminance at the ends of a fitted scale.
 const FITTED: [f32; 2] = [0.05, 0.98];
 
 /// An open scene.
@@ -38,7 +38,7 @@ pub struct OpenScene {
     pub uploaded: UploadedScene,
     /// Version of the light on the device: it rises by one with each upload.
     pub light_version: u32,
-    /// The scene has some light.
+    /// True if the scene has any light.
     pub is_lit: bool,
     /// Index of the camera of the file that was visited last.
     pub camera_index: usize,
@@ -46,14 +46,15 @@ pub struct OpenScene {
     pub solved: Option<Arc<SolvedScene>>,
     /// Advice for the user.
     pub advice: Vec<Advice>,
-    /// The hidden instances, and the buffers without them.
+    /// Cached buffers without the hidden instances.
     part: Option<(BTreeSet<InstanceId>, Arc<SceneBuffers>)>,
     /// The moment of the recording that is on the device.
     replay: ReplaySettings,
 }
 
 impl OpenScene {
-    /// Opens a loaded scene with the camera at `pose`, or else at the first camera of the file or outside the scene.
+    /// Opens a loaded scene. The camera starts at `pose` if given, else at the first camera of the file, else outside
+    /// the scene.
     #[must_use]
     pub fn new(loaded: LoadedScene, pose: Option<CameraPose>) -> Self {
         let LoadedScene { scene, collider, uploaded, solved, advice } = loaded;
@@ -74,13 +75,13 @@ impl OpenScene {
         }
     }
 
-    /// The mesh settings that bake settings lead to in this scene.
+    /// Returns the mesh settings that follow from bake settings in this scene.
     #[must_use]
     pub fn mesh_sizes(&self, settings: &BakeSettings) -> MeshSettings {
         settings.mesh_settings(&self.scene)
     }
 
-    /// No surface hides `point` from the camera.
+    /// Returns true if no surface hides `point` from the camera.
     #[must_use]
     pub fn sees(&self, point: Vec3) -> bool {
         let eye = self.controller.pose.position;
@@ -90,12 +91,12 @@ impl OpenScene {
         met.is_none_or(|pick| (pick.point - eye).length() > 0.995 * way.length())
     }
 
-    /// Shows new light on the device, on another mesh if one is given.
+    /// Shows new light that is on the device. Replaces the mesh if one is given.
     pub fn show_light(&mut self, mesh: Option<UploadedScene>) {
         self.light_version += 1;
         if let Some(mesh) = mesh {
             (self.uploaded, self.part, self.is_lit) = (mesh, None, true);
-            // The solved light belongs to the last mesh.
+            // The solved light belongs to the previous mesh.
             self.solved = None;
         }
     }
@@ -107,7 +108,7 @@ impl OpenScene {
         self.replay = ReplaySettings::default();
     }
 
-    /// The buffers to draw if these instances are hidden.
+    /// Returns the buffers to draw if these instances are hidden.
     #[must_use]
     pub fn visible_buffers(&mut self, gpu: &Gpu, hidden: &BTreeSet<InstanceId>) -> Arc<SceneBuffers> {
         if hidden.is_empty() {
@@ -140,7 +141,7 @@ impl OpenScene {
         self.light_version += 1;
     }
 
-    /// `scale` with limits that span most of the illuminance of the scene.
+    /// Returns `scale` with limits that span most of the illuminance of the scene.
     #[must_use]
     pub fn fitted_scale(&self, scale: LuxScale) -> LuxScale {
         let Some(solved) = &self.solved else { return scale };
@@ -155,19 +156,19 @@ impl OpenScene {
     }
 }
 
-/// `value` rounded to two significant figures.
+/// Rounds `value` to two significant figures.
 fn two_figures(value: f32) -> f32 {
     let unit = 10f32.powf(value.max(f32::MIN_POSITIVE).log10().floor() - 1.0);
     (value / unit).round() * unit
 }
 
-/// Some vertex receives light.
+/// Returns true if any vertex receives light.
 fn has_light(solved: &SolvedScene) -> bool {
     let groups = &solved.baked.light.groups;
     groups.iter().any(|group| group.direct.iter().chain(&group.indirect).any(|value| *value != Vec3::ZERO))
 }
 
-/// A camera at the first camera of the file, or else outside, with the whole scene in view.
+/// Creates a camera at the first camera of the file; if there is none, outside, with the whole scene in view.
 fn first_view(scene: &Scene, collider: &Collider) -> CameraController {
     if let Some(camera) = scene.cameras.first() {
         return CameraController::new(CameraPose::from_camera(camera), collider);

@@ -17,7 +17,7 @@ pub enum Source {
 }
 
 impl Default for Source {
-    /// The first built-in scene.
+    /// Returns the first built-in scene.
     fn default() -> Self {
         Self::BuiltIn(builtin::NAMES[0].to_owned())
     }
@@ -33,7 +33,7 @@ impl Source {
         }
     }
 
-    /// The file on disk, without the name of a scene in it; `None` for a built-in scene.
+    /// Returns the file on disk, without the name of a scene in it; `None` for a built-in scene.
     #[must_use]
     pub fn file(&self) -> Option<PathBuf> {
         let Self::File(path) = self else { return None };
@@ -44,7 +44,7 @@ impl Source {
         Some(text.rsplit_once('#').map_or_else(|| path.clone(), |(file, _)| PathBuf::from(file)))
     }
 
-    /// The name that [`Source::of`] parses.
+    /// Returns the name that [`Source::of`] parses.
     #[must_use]
     pub fn name(&self) -> PathBuf {
         match self {
@@ -53,7 +53,7 @@ impl Source {
         }
     }
 
-    /// Loads the scene, a file in the material variant of that name.
+    /// Loads the scene. A file is loaded in the material variant of that name.
     ///
     /// # Errors
     /// Returns an error if the scene or the variant does not exist, or if the file is not valid.

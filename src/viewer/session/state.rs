@@ -27,18 +27,18 @@ pub struct Session {
     pub open_scene: Option<OpenScene>,
     /// Source of the scene that is open or being loaded.
     source: Source,
-    /// Its material variant.
+    /// Material variant of `source`.
     variant: Option<String>,
     /// Pose of the camera in a scene that is being reloaded.
     kept_pose: Option<CameraPose>,
     watch: Option<FileWatch>,
     worker: Option<Worker>,
-    /// Workers that are asked to end; dropped when they have ended.
+    /// Cancelled workers, dropped when they have ended.
     retired: Vec<Worker>,
-    /// Number of the last run: it rises by one with each worker.
+    /// Number of the last run. It increases by one with each worker.
     run: u32,
     began: Instant,
-    /// The elements of the bake, until they have some light.
+    /// The elements of the bake until their first light is uploaded.
     dark_mesh: Option<UploadedScene>,
     num_elements: Option<usize>,
     /// State of the light when no worker runs.
@@ -47,7 +47,7 @@ pub struct Session {
     curve: Vec<[f32; 2]>,
 }
 
-/// What an event of the worker has led to.
+/// Effect of an event of the worker.
 pub enum Outcome {
     /// The picture or the progress has changed.
     Changed,
@@ -60,7 +60,7 @@ pub enum Outcome {
 }
 
 impl Session {
-    /// A session without a scene; `gpu` is the window's device.
+    /// Creates a session without a scene. `gpu` is the window's device.
     #[must_use]
     pub fn new(gpu: Arc<Gpu>, window: EventLoopProxy<UserEvent>) -> Self {
         Self {
@@ -110,7 +110,7 @@ impl Session {
         self.load(settings)
     }
 
-    /// The scene that is being loaded is shown from this pose.
+    /// Sets the pose from which the scene that is being loaded is shown.
     pub fn keep_pose(&mut self, pose: Option<CameraPose>) {
         self.kept_pose = pose;
     }
@@ -151,25 +151,25 @@ impl Session {
         }
     }
 
-    /// The worker, while it loads or bakes.
+    /// Returns the worker while it loads or bakes, otherwise `None`.
     #[must_use]
     pub fn worker(&self) -> Option<&Worker> {
         self.worker.as_ref()
     }
 
-    /// Number of the last run: events of earlier ones belong to another scene.
+    /// Returns the number of the last run. Events of earlier runs belong to another scene.
     #[must_use]
     pub fn run(&self) -> u32 {
         self.run
     }
 
-    /// The name that opens this scene again.
+    /// Returns the name that opens this scene again.
     #[must_use]
     pub fn name(&self) -> PathBuf {
         self.source.name()
     }
 
-    /// The material variant of the open scene.
+    /// Returns the material variant of the open scene.
     #[must_use]
     pub fn variant(&self) -> Option<&str> {
         self.variant.as_deref()
@@ -188,13 +188,13 @@ impl Session {
         }
     }
 
-    /// Number of elements; `None` before it is known.
+    /// Returns the number of elements; `None` before it is known.
     #[must_use]
     pub fn num_elements(&self) -> Option<usize> {
         self.num_elements
     }
 
-    /// Convergence of the bake: seconds since the beginning, and unshot share of the light.
+    /// Returns the convergence of the bake: seconds since the beginning, and unshot share of the light.
     #[must_use]
     pub fn curve(&self) -> Vec<[f32; 2]> {
         self.worker.as_ref().map_or_else(|| self.curve.clone(), Worker::curve)
@@ -232,7 +232,7 @@ impl Session {
         Outcome::Opened
     }
 
-    /// Shows the light that was uploaded last; the first light of a bake also replaces the mesh.
+    /// Shows the light that was uploaded last. The first light of a bake also replaces the mesh.
     fn show_light(&mut self) {
         let mesh = self.dark_mesh.take();
         if let Some(open_scene) = &mut self.open_scene {

@@ -15,7 +15,7 @@ pub enum UserEvent {
     Worker {
         /// Number of the run.
         run: u32,
-        /// What has happened.
+        /// The event.
         event: WorkerEvent,
     },
     /// A job has a result.
@@ -31,13 +31,13 @@ pub enum UserEvent {
     ShadersChanged,
 }
 
-/// What has happened in a worker.
+/// An event of a worker.
 pub enum WorkerEvent {
-    /// The scene is loaded and on the device, still dark unless the file is a bake.
+    /// The scene is loaded and on the device. It is dark unless the file is a bake.
     Loaded(Box<LoadedScene>),
     /// The elements of the bake are on the device, still dark.
     MeshUploaded(UploadedScene),
-    /// Brighter light is on the device.
+    /// Newer light of the bake is on the device.
     LightUpdated,
     /// The progress or the curve of the worker has changed.
     Progress,
@@ -51,9 +51,9 @@ pub enum WorkerEvent {
 pub struct LoadedScene {
     /// The scene of the file.
     pub scene: Arc<Scene>,
-    /// Its triangles for collision and picking.
+    /// Triangles of the scene for collision and picking.
     pub collider: Collider,
-    /// Its triangles on the device.
+    /// Triangles of the scene on the device.
     pub uploaded: UploadedScene,
     /// The light, if the file is a bake.
     pub solved: Option<Arc<SolvedScene>>,

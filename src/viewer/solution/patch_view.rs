@@ -16,14 +16,14 @@ use crate::viewer::solution::solved::SolvedScene;
 
 /// Resolution of the hemicube, pixels.
 const SIZE_PX: u32 = 128;
-/// Rays that estimate the form factors.
+/// Number of rays that estimate the form factors.
 const NUM_RAYS: u32 = 1 << 17;
 
 /// The view from the patch that the user has chosen.
 pub struct ChosenPatchView {
     /// Position and normal of the patch.
     pub point: MeasuringPoint,
-    /// Pixels across and down of the unfolded hemicube.
+    /// Width and height of the unfolded hemicube, pixels.
     pub size: [u32; 2],
     /// The unfolded hemicube as displayed: RGBA bytes.
     pub shaded: Vec<u8>,
@@ -67,7 +67,7 @@ impl ChosenPatchView {
     }
 }
 
-/// The sparse row as a dense one.
+/// Expands a sparse row into a dense one.
 fn factors(row: &Row, num_elements: usize) -> Vec<f32> {
     let mut factors = vec![0.0; num_elements];
     for entry in &row.entries {
@@ -76,8 +76,8 @@ fn factors(row: &Row, num_elements: usize) -> Vec<f32> {
     factors
 }
 
-/// Form factor by area of each element `[e]`, relative to the largest, 0..1: the contribution of an element of unit radiosity
-/// and unit area.
+/// Computes form factor / area of each element `[e]`, relative to the largest, 0..1. This is the contribution of unit
+/// area of the element at unit radiosity.
 #[must_use]
 pub fn heat(solved: &SolvedScene, factors: &[f32]) -> Vec<f32> {
     let elements = solved.mesh.elements.iter().zip(factors);
@@ -86,13 +86,13 @@ pub fn heat(solved: &SolvedScene, factors: &[f32]) -> Vec<f32> {
     density.iter().map(|density| density / largest).collect()
 }
 
-/// A random colour of an element, so that neighbours differ.
+/// Returns a random colour for an element, so that neighbours differ.
 fn item_colour(element: u32) -> [u8; 4] {
     let channel = |i: u32| (255.0 * (0.15 + 0.8 * unit_float(hash(hash(element) ^ i)))) as u8;
     [channel(0), channel(1), channel(2), 255]
 }
 
-/// Position and normal of the patch as an option of `hemicube render`.
+/// Formats position and normal of the patch as an option of `hemicube render`.
 #[must_use]
 pub fn render_option(point: &MeasuringPoint) -> String {
     let MeasuringPoint { position: Vec3 { x, y, z }, normal } = point;

@@ -1,7 +1,7 @@
 //! A recording of progressive refinement, shot by shot, that the time machine of the panels steps through.
 //!
-//! Shooting (Cohen 1988) is repeated on the finished mesh, one patch at a time. The first shots are kept one by one and later
-//! ones at growing distances, so that the memory is bounded.
+//! Shooting (Cohen 1988) is repeated on the finished mesh, one patch at a time. Storing every shot would take too much
+//! memory: the first shots are stored one by one, later ones at growing distances.
 
 use glam::Vec3;
 
@@ -20,29 +20,29 @@ use crate::viewer::solution::solved::SolvedScene;
 
 /// Unshot share of the light at which the recording ends.
 const THRESHOLD: f32 = 0.01;
-/// Most shots by each patch.
+/// Largest number of shots by each patch on average.
 const MAX_PASSES: usize = 16;
-/// Shots that are kept one by one.
+/// Number of first shots that are stored one by one.
 const SINGLE_SHOTS: usize = 24;
-/// Later moments are one fifth of the shots so far apart.
+/// The distance of later moments is the number of shots so far divided by this.
 const GROWTH: usize = 5;
-/// Most bytes of light that are kept.
+/// Limit on the stored light, bytes.
 const LIGHT_BYTES: usize = 192 << 20;
-/// Most bytes of form factors that are kept.
+/// Limit on the cached form factors, bytes.
 const ROW_BYTES: usize = 256 << 20;
-/// Rays that estimate the form factors of a shooter.
+/// Number of rays that estimate the form factors of a shooter.
 const NUM_RAYS: u32 = 512;
 
 /// A recording of progressive refinement.
 #[derive(Default)]
 pub struct Recording {
-    /// The kept moments in order; the first has direct light only.
+    /// The stored moments in order. The first has direct light only.
     pub moments: Vec<Moment>,
-    /// Number of patches: the shots of one pass.
+    /// Number of patches, which is the number of shots of one pass.
     pub num_patches: usize,
 }
 
-/// The light after some number of shots.
+/// The light after a number of shots.
 pub struct Moment {
     /// Shots so far.
     pub num_shots: usize,
@@ -57,7 +57,7 @@ pub struct Moment {
 }
 
 impl Recording {
-    /// Shoots once more, patch by patch. `None` if it was cancelled or the bake was loaded from a file.
+    /// Repeats the shooting, patch by patch. Returns `None` if it was cancelled or the bake was loaded from a file.
     ///
     /// # Errors
     /// Returns an error if form factors cannot be computed.
@@ -107,8 +107,8 @@ impl Moment {
         }
     }
 
-    /// The light of this moment at the vertices of the bake: direct light as baked and indirect light as shot so far, with the
-    /// ambient estimate of the rest if `with_ambient`.
+    /// Returns the light of this moment at the vertices of the bake: direct light as baked, indirect light as shot so
+    /// far. Adds the ambient estimate of the unshot light if `with_ambient`.
     #[must_use]
     pub fn light(&self, solved: &SolvedScene, with_ambient: bool) -> VertexLight {
         let of_group = |(g, baked): (usize, &GroupLight)| {
@@ -120,14 +120,14 @@ impl Moment {
     }
 }
 
-/// The patch that shoots next: the first one with the greatest unshot power.
+/// Returns the patch that shoots next: the first one with the greatest unshot power.
 fn brightest(solution: &Solution) -> Option<PatchId> {
     let power = |p: usize| luminance(solution.unshot.total(p));
     let better = |best: usize, p: usize| if power(p) > power(best) { p } else { best };
     (0..solution.unshot.num_places()).reduce(better).map(PatchId::new)
 }
 
-/// The shot after `num_shots` that is kept.
+/// Returns the number of shots at the next stored moment after `num_shots`.
 fn shot_after(num_shots: usize) -> usize {
     if num_shots < SINGLE_SHOTS { num_shots + 1 } else { num_shots + num_shots.div_ceil(GROWTH) }
 }

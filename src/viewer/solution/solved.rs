@@ -16,7 +16,7 @@ use crate::viewer::settings::light::GroupDial;
 
 /// A scene with its solved light.
 pub struct SolvedScene {
-    /// The scene as it was before the bake; the elements if the file is a bake.
+    /// The scene before the bake; its elements if the file is a bake.
     pub scene: Arc<Scene>,
     /// The elements: triangle `e` of `baked` is element `e`.
     pub mesh: PatchMesh,
@@ -29,14 +29,14 @@ pub struct SolvedScene {
 }
 
 impl SolvedScene {
-    /// The result of a bake of `scene`.
+    /// Wraps the result of a bake of `scene`.
     #[must_use]
     pub fn of_bake(scene: Arc<Scene>, bake: Bake, settings: &BakeSettings) -> Self {
         let Bake { baked, report, mesh } = bake;
         Self { scene, mesh, baked, quality: settings.quality, report: Some(report) }
     }
 
-    /// A bake that was loaded from a file.
+    /// Wraps a bake that was loaded from a file.
     ///
     /// # Errors
     /// Returns an error if it has no elements.
@@ -55,7 +55,7 @@ impl SolvedScene {
         measure_with(&context, points, &settings)
     }
 
-    /// Direct irradiance `[e][g]` of the elements: the mean of their corners, lux per channel.
+    /// Computes the direct irradiance `[e][g]` of the elements, the mean of their corners, lux per channel.
     #[must_use]
     pub fn direct_on_elements(&self) -> Field {
         let groups = &self.baked.light.groups;
@@ -66,7 +66,7 @@ impl SolvedScene {
         Field::from_values(groups.len(), self.baked.scene.triangles.iter().flat_map(of_element).collect())
     }
 
-    /// The bake with the stored light and the light sources of each group multiplied by the weight of its dial.
+    /// Returns the bake with the stored light and the light sources of each group multiplied by the weight of its dial.
     #[must_use]
     pub fn dimmed(&self, dials: &[GroupDial]) -> BakedScene {
         let mut baked = self.baked.clone();

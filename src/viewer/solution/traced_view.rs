@@ -14,7 +14,7 @@ use crate::viewer::camera::pose::CameraPose;
 use crate::viewer::settings::light::GroupDial;
 use crate::viewer::solution::solved::SolvedScene;
 
-/// Rays a pixel at which tracing ends.
+/// Rays per pixel at which tracing ends.
 pub const MAX_RAYS: u32 = 64;
 
 /// A traced picture of the view.
@@ -23,7 +23,7 @@ pub struct TracedView {
     pub size: [u32; 2],
     /// RGBA bytes as displayed.
     pub display: Vec<u8>,
-    /// Rays a pixel so far.
+    /// Rays per pixel so far.
     pub num_rays: u32,
 }
 
@@ -33,13 +33,13 @@ pub struct TracedViewRequest {
     pub camera: Camera,
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// The render settings; their exposure is fixed, so that passes do not flicker.
+    /// The render settings. Their exposure is fixed, so that passes do not flicker.
     pub settings: RenderSettings,
     /// Intensities and colours of the light groups.
     pub dials: Vec<GroupDial>,
 }
 
-/// Traces one ray a pixel in each pass and calls `on_pass` with the mean of the passes after each.
+/// Traces one ray per pixel in each pass. After each pass calls `on_pass` with the mean of the passes so far.
 pub fn trace(solved: &SolvedScene, request: &TracedViewRequest, progress: &dyn Progress, on_pass: impl Fn(TracedView)) {
     let TracedViewRequest { camera, size, settings: render_settings, dials } = request;
     let baked = solved.dimmed(dials);
@@ -53,8 +53,8 @@ pub fn trace(solved: &SolvedScene, request: &TracedViewRequest, progress: &dyn P
     }
 }
 
-/// A traced view shows the same as rasterisation: `render_settings` shows lit surfaces with all their light, and no culled back lies in
-/// view, since rays are stopped by backs.
+/// Returns true if a traced view shows the same as rasterisation: `render_settings` shows lit surfaces with all their
+/// light, and no culled back lies in view, since backs block rays.
 #[must_use]
 pub fn matches_rasterisation(
     render_settings: &RenderSettings,
@@ -70,7 +70,7 @@ pub fn matches_rasterisation(
     shows_all && !(render_settings.cull_back && looks_through_backs(pose, aspect, collider, scene))
 }
 
-/// A ray of a coarse grid over the picture hits the back of a single-sided surface.
+/// Returns true if a ray of a coarse grid over the picture hits the back of a single-sided surface.
 fn looks_through_backs(pose: &CameraPose, aspect: f32, collider: &Collider, scene: &Scene) -> bool {
     const GRID: [i32; 2] = [8, 5];
     let is_double = |t: crate::base::ids::TriangleId| scene.material_of(t).double_sided;
@@ -83,7 +83,7 @@ fn looks_through_backs(pose: &CameraPose, aspect: f32, collider: &Collider, scen
     })
 }
 
-/// `render_settings` with the exposure that was metered for the rasterised picture, if its own is automatic.
+/// Returns `render_settings` with automatic exposure replaced by the one metered for the rasterised picture.
 #[must_use]
 pub fn with_fixed_exposure(render_settings: &RenderSettings, metered_ev: Option<f32>) -> RenderSettings {
     let exposure = match (render_settings.exposure, metered_ev) {

@@ -1,13 +1,13 @@
-//! The key sheet.
+//! The key sheet: a list of all keys.
 
 use egui::{Align2, Grid, Id, Ui};
 
 use super::theme;
 
-/// A heading with its keys and what they do.
+/// A heading, and below it keys with what they do.
 type Subject = (&'static str, &'static [(&'static str, &'static str)]);
 
-/// All keys.
+/// The whole key sheet.
 const SHEET: [Subject; 5] = [
     (
         "Moving",

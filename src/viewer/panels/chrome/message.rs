@@ -18,7 +18,7 @@ pub struct Notice {
 }
 
 impl Notice {
-    /// A notice that is shown from now on.
+    /// Creates a notice that is shown from now on.
     pub fn new(text: impl Into<String>) -> Self {
         Self { text: text.into(), until: Instant::now() + NOTICE_TIME }
     }
@@ -31,17 +31,17 @@ pub struct Trouble {
     pub title: String,
     /// The full message.
     pub text: String,
-    /// The text quotes code: it is shown in a font of even width, and no other file is offered.
+    /// True if the text quotes code. It is then shown in a monospaced font, without the offer to open another file.
     pub is_code: bool,
 }
 
 impl Trouble {
-    /// A message in words.
+    /// Creates a message in words.
     pub fn new(title: impl Into<String>, text: impl Into<String>) -> Self {
         Self { title: title.into(), text: text.into(), is_code: false }
     }
 
-    /// A message that quotes code.
+    /// Creates a message that quotes code.
     pub fn of_code(title: impl Into<String>, text: impl Into<String>) -> Self {
         Self { is_code: true, ..Self::new(title, text) }
     }

@@ -1,4 +1,4 @@
-//! What frames the sections: theme, widgets, status line, messages, key sheet and tour.
+//! The parts of the window around the sections: theme, widgets, status line, messages, key sheet and tour.
 
 pub mod help;
 pub mod message;

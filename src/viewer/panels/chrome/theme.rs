@@ -24,13 +24,13 @@ pub fn apply(ctx: &egui::Context) {
         style.spacing.item_spacing = egui::vec2(8.0, 5.0);
         style.spacing.button_padding = egui::vec2(9.0, 4.0);
         style.spacing.slider_rail_height = 4.0;
-        // Keeps numbers at the right edge clear of the scroll bar.
+        // The scroll bar must not cover numbers at the right edge.
         style.spacing.scroll =
             egui::style::ScrollStyle { floating_allocated_width: 8.0, ..egui::style::ScrollStyle::thin() };
         // An animation would request frames and slow down the bake.
         style.animation_time = 0.0;
     });
-    // The scale of the desktop applies; Ctrl + and - do not change it.
+    // The panels have the scale of the desktop. Ctrl + and - do not change it.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
 }
 
@@ -60,23 +60,23 @@ fn visuals() -> Visuals {
     visuals
 }
 
-/// Frame of the side panel.
+/// Returns the frame of the side panel.
 pub fn side() -> Frame {
     Frame::new().fill(PANEL).inner_margin(Margin { left: 14, right: 8, top: 10, bottom: 6 })
 }
 
-/// Frame of the status line.
+/// Returns the frame of the status line.
 pub fn bar() -> Frame {
     Frame::new().fill(PANEL).inner_margin(Margin::symmetric(12, 4))
 }
 
-/// Title of a section.
+/// Formats the title of a section.
 #[must_use]
 pub fn title(text: &str) -> RichText {
     RichText::new(text).strong().color(STRONG_TEXT).size(14.5)
 }
 
-/// The name of a key.
+/// Formats the name of a key.
 #[must_use]
 pub fn key(text: &str) -> RichText {
     RichText::new(text).monospace().color(ACCENT)

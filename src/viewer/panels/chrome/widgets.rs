@@ -7,7 +7,7 @@ use egui::{CollapsingHeader, Ui};
 
 use super::theme;
 
-/// A section that folds; `sections` stores by title whether it is open.
+/// Adds a section that can be folded. `sections` stores by title whether it is open.
 pub fn section(
     ui: &mut Ui,
     sections: &mut BTreeMap<String, bool>,
@@ -27,7 +27,7 @@ pub fn section(
     }
 }
 
-/// A row with a name at the left and a value at the right.
+/// Adds a row with a name at the left and a value at the right.
 pub fn row(ui: &mut Ui, name: &str, value: impl Into<egui::WidgetText>) {
     ui.horizontal(|ui| {
         ui.label(name);
@@ -37,24 +37,24 @@ pub fn row(ui: &mut Ui, name: &str, value: impl Into<egui::WidgetText>) {
     });
 }
 
-/// Gives a widget without text the name that screen readers read out.
+/// Sets the accessible name of a widget without text, for screen readers.
 pub fn named(response: &egui::Response, role: egui::Role, name: impl ToString) {
     response.widget_info(|| egui::WidgetInfo::labeled(role, response.enabled(), name.to_string()));
 }
 
-/// Weak text that wraps.
+/// Adds weak text that wraps.
 pub fn hint(ui: &mut Ui, text: impl Into<String>) {
     ui.add(egui::Label::new(egui::RichText::new(text).weak()).wrap());
 }
 
-/// A button as wide as the panel; returns whether it was clicked.
+/// Adds a button as wide as the panel. Returns true if it was clicked.
 pub fn wide_button(ui: &mut Ui, text: &str, is_enabled: bool, hover: &str) -> bool {
     let button = egui::Button::new(text);
     let response = ui.vertical_centered_justified(|ui| ui.add_enabled(is_enabled, button)).inner;
     response.on_hover_text(hover).clicked()
 }
 
-/// A name from a table with a capital first letter.
+/// Returns `name` with a capital first letter.
 #[must_use]
 pub fn capitalised(name: &str) -> String {
     let mut letters = name.chars();

@@ -5,21 +5,21 @@ use crate::patch::MeshSettings;
 use crate::viewer::session::light_state::LightState;
 use crate::viewer::solution::recording::Recording;
 
-/// What the panels show of the bake.
+/// Facts about the light and its bake.
 #[derive(Clone, Default)]
 pub struct BakeFacts<'a> {
     /// State of the light.
     pub light: LightState,
-    /// The scene has its final light, which can be measured and saved.
+    /// True if the scene has its final light, which can be measured and saved.
     pub is_solved: bool,
     /// Settings of the next bake, and the sizes of elements and patches that follow from them in this scene.
     pub next: Option<(BakeSettings, MeshSettings)>,
-    /// Progress of the bake: pairs of the seconds since its start and the unshot share of the light.
+    /// Convergence of the bake: pairs of the seconds since its start and the unshot share of the light.
     pub curve: &'a [[f32; 2]],
     /// The certificate of the last bake.
     pub report: Option<&'a Report>,
     /// The recorded bake.
     pub recording: Option<&'a Recording>,
-    /// A bake is being recorded.
+    /// True while a bake is being recorded.
     pub is_recording: bool,
 }

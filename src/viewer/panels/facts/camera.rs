@@ -4,20 +4,20 @@ use glam::Vec3;
 
 use crate::viewer::camera::pose::CameraPose;
 
-/// What the panels show of the camera.
+/// Facts about the camera.
 #[derive(Clone)]
 pub struct CameraFacts<'a> {
-    /// Where the camera is and where it looks; `None` before a scene is open.
+    /// Position and direction of the camera; `None` before a scene is open.
     pub pose: Option<CameraPose>,
-    /// The camera walks on the floor; otherwise it flies.
+    /// True if the camera walks on the floor, false if it flies.
     pub is_walking: bool,
-    /// Speed without running, metres a second.
+    /// Speed without running, m/s.
     pub speed: f32,
-    /// The window has captured the mouse, which turns the camera until Escape is pressed.
+    /// True while the mouse is captured and turns the camera.
     pub is_captured: bool,
     /// Numbers of the bookmarks of this scene.
     pub bookmarks: Vec<u8>,
-    /// Whether no surface hides a point from the camera.
+    /// Returns true if no surface hides a point from the camera.
     pub is_visible: &'a dyn Fn(Vec3) -> bool,
 }
 
@@ -35,7 +35,7 @@ impl Default for CameraFacts<'_> {
 }
 
 impl CameraFacts<'_> {
-    /// Position of the camera, metres; the origin before a scene is open.
+    /// Returns the position of the camera, metres; the origin before a scene is open.
     #[must_use]
     pub fn position(&self) -> Vec3 {
         self.pose.map_or(Vec3::ZERO, |pose| pose.position)

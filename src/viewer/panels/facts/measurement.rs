@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::viewer::solution::meter::{Grid, Reading};
 use crate::viewer::solution::patch_view::ChosenPatchView;
 
-/// What the panels show of measurements.
+/// Results of measurements.
 #[derive(Clone, Copy, Default)]
 pub struct MeasurementFacts<'a> {
     /// The last reading.
@@ -16,6 +16,6 @@ pub struct MeasurementFacts<'a> {
     pub grid: Option<&'a Grid>,
     /// The view from the chosen patch.
     pub patch_view: Option<&'a Arc<ChosenPatchView>>,
-    /// A measurement is running.
+    /// True while a measurement is running.
     pub is_busy: bool,
 }

@@ -17,16 +17,16 @@ pub use shadow::ShadowFacts;
 /// What the panels show and do not set.
 #[derive(Clone, Default)]
 pub struct Facts<'a> {
-    /// The open scene.
+    /// Facts about the open scene.
     pub scene: SceneFacts<'a>,
-    /// Its light: the bake that runs or has ended.
+    /// Facts about its light and the bake that runs or has ended.
     pub bake: BakeFacts<'a>,
-    /// The camera and how it moves.
+    /// Facts about the camera and its movement.
     pub camera: CameraFacts<'a>,
-    /// The picture beside the panels.
+    /// Facts about the picture beside the panels.
     pub picture: PictureFacts<'a>,
-    /// The shadows in the picture.
+    /// Facts about the shadows in the picture.
     pub shadows: ShadowFacts<'a>,
-    /// What has been measured.
+    /// Results of measurements.
     pub measurement: MeasurementFacts<'a>,
 }

@@ -1,15 +1,15 @@
 //! Facts about the picture and the frame rate.
 
-/// What the panels show of the picture.
+/// Facts about the picture and its frames.
 #[derive(Clone, Copy)]
 pub struct PictureFacts<'a> {
     /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Rays a pixel of the traced view; `None` if the view is rasterised.
+    /// Rays per pixel of the traced view; `None` if the view is rasterised.
     pub num_rays: Option<u32>,
-    /// A picture is being written to a file.
+    /// True while a picture is being written to a file.
     pub is_writing: bool,
-    /// Frames a second while something moves.
+    /// Frames per second during a movement.
     pub frame_rate: f32,
     /// Duration of a frame, seconds.
     pub frame_seconds: f32,

@@ -3,7 +3,7 @@
 use crate::scene::Scene;
 use crate::viewer::session::advice::Advice;
 
-/// What the panels show of the open scene.
+/// Facts about the open scene, with what is chosen in it.
 #[derive(Clone, Copy, Default)]
 pub struct SceneFacts<'a> {
     /// The open scene; `None` if there is none.
@@ -12,6 +12,6 @@ pub struct SceneFacts<'a> {
     pub variant: Option<&'a str>,
     /// Number of triangles that store light; `None` before the first light.
     pub num_elements: Option<usize>,
-    /// What the loader and the mesh doctor found.
+    /// Findings of the loader and the mesh doctor.
     pub advice: &'a [Advice],
 }

@@ -57,11 +57,11 @@ pub fn comparison_ui(ui: &mut Ui, free: Rect, light: &mut LightSettings, facts: 
     }
 }
 
-/// The line between both halves, which can be dragged; returns its position, points.
+/// Draws the line between both halves, which can be dragged. Returns its position, points.
 fn divider_ui(ui: &mut Ui, free: Rect, divider: &mut f32) -> f32 {
     let at = free.left() + *divider * free.width();
     let grip = Rect::from_center_size(pos2(at, free.center().y), vec2(GRIP, free.height()));
-    // An area of its own, so that dragging does not turn the camera.
+    // The divider is an egui area of its own, so that dragging it does not turn the camera.
     let area = Area::new(Id::unique("divider")).order(Order::Background).fixed_pos(grip.min).constrain(false);
     let response = area.show(ui.ctx(), |ui| ui.allocate_response(grip.size(), Sense::drag())).inner;
     named(&response, Role::Slider, "Divider");
@@ -77,7 +77,7 @@ fn divider_ui(ui: &mut Ui, free: Rect, divider: &mut f32) -> f32 {
     at
 }
 
-/// The legend of the stencil view.
+/// Draws the legend of the stencil view.
 fn counts_ui(painter: &Painter, centre: Pos2) {
     let width = 44.0 * COUNTS.len() as f32;
     for (index, count) in COUNTS.into_iter().enumerate() {
@@ -93,7 +93,7 @@ fn counts_ui(painter: &Painter, centre: Pos2) {
     }
 }
 
-/// Text on a dark background, readable over any picture.
+/// Draws text on a dark background, readable over any picture.
 fn label(painter: &Painter, at: Pos2, anchor: Align2, text: &str, colour: Color32) {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.5), colour);
     let rect = anchor.anchor_size(at, galley.size());

@@ -9,7 +9,7 @@ use crate::render::{LuxScale, turbo};
 const BAR: egui::Vec2 = vec2(18.0, 220.0);
 /// Width of the numbers, points.
 const NUMBERS: f32 = 58.0;
-/// Number of parts if the picture shows no lines of equal illuminance.
+/// Number of parts of the legend if the picture shows no lines of equal illuminance.
 const DEFAULT_PARTS: u32 = 4;
 /// Number of colours in the bar.
 const STEPS: usize = 64;

@@ -9,7 +9,7 @@ use super::super::facts::Facts;
 use crate::render::turbo;
 use crate::viewer::settings::light::GroupDial;
 
-/// A grid with more points is drawn without numbers.
+/// Largest number of points of a grid that is drawn with numbers.
 const MAX_NUMBERS: usize = 120;
 
 pub fn markers_ui(ui: &mut Ui, free: Rect, dials: &[GroupDial], facts: &Facts<'_>) {
@@ -55,7 +55,7 @@ fn pin(painter: &Painter, at: Pos2, text: &str, colour: Color32) {
     label(painter, pos2(at.x + 9.0, at.y - 9.0), text, 13.0, colour);
 }
 
-/// Text on a dark background, readable over any picture.
+/// Draws text on a dark background, readable over any picture.
 fn label(painter: &Painter, at: Pos2, text: &str, size: f32, colour: Color32) {
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(size), colour);
     let rect = Align2::LEFT_CENTER.anchor_size(at, galley.size());

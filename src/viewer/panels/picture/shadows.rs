@@ -1,4 +1,5 @@
-//! Real-time shadows: the technique, its settings and its classic faults, comparison with another technique, debug views.
+//! The section of real-time shadows: choice of the technique, its settings, its classic faults, comparison with another
+//! technique, debug views, durations of passes.
 
 use egui::{ComboBox, DragValue, RichText, Role, Slider, Ui};
 
@@ -51,7 +52,7 @@ fn settings_ui(ui: &mut Ui, shadows: &mut ShadowSettings, in_hand: Tool, actions
     technique_ui(ui, shadows, in_hand, actions);
 }
 
-/// The technique to compare with.
+/// Lays out the choice of the technique to compare with.
 fn compared_ui(ui: &mut Ui, light: &mut LightSettings) {
     let name = light.compared_technique.map_or("Nothing", |technique| technique.info().title);
     ComboBox::from_label("Compare with").selected_text(name).width(COMBO_WIDTH).show_ui(ui, |ui| {
@@ -71,7 +72,7 @@ fn compared_ui(ui: &mut Ui, light: &mut LightSettings) {
     }
 }
 
-/// The debug view.
+/// Lays out the choice of the debug view.
 fn debug_ui(ui: &mut Ui, light: &mut LightSettings, facts: &Facts<'_>) {
     let name = light.debug.map_or("Nothing", |view| view.info().title);
     ComboBox::from_label("Look into").selected_text(name).width(COMBO_WIDTH).show_ui(ui, |ui| {
@@ -95,7 +96,7 @@ fn debug_ui(ui: &mut Ui, light: &mut LightSettings, facts: &Facts<'_>) {
     }
 }
 
-/// Milliseconds of each pass of the last picture.
+/// Lays out the duration of each pass of the last picture, milliseconds.
 fn times_ui(ui: &mut Ui, facts: &Facts<'_>) {
     if facts.shadows.laps.is_empty() {
         return;

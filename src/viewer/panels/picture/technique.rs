@@ -9,10 +9,10 @@ use crate::viewer::settings::tool::Tool;
 
 /// Widths of a shadow map to choose from, texels.
 const RESOLUTIONS: [u32; 5] = [256, 512, 1024, 2048, 4096];
-/// First distance of the far plane, metres.
+/// Initial distance of the far plane, metres.
 const FAR_PLANE: f32 = 10.0;
 
-/// Settings of the chosen technique.
+/// Lays out the settings of the chosen technique.
 pub fn technique_ui(ui: &mut Ui, shadows: &mut ShadowSettings, in_hand: Tool, actions: &mut Vec<Action>) {
     match shadows.technique {
         ShadowTechnique::Map => map_ui(ui, &mut shadows.maps),

@@ -31,7 +31,7 @@ pub fn objects_ui(ui: &mut Ui, selection: &mut Selection, facts: &Facts<'_>, act
     lights_ui(ui, scene, &selection.filter);
 }
 
-/// The file's material variants, if it has any.
+/// Lays out the choice of the material variant, if the file has variants.
 fn variant_ui(ui: &mut Ui, scene: &Scene, current: Option<&str>, actions: &mut Vec<Action>) {
     if scene.variants.is_empty() {
         return;

@@ -25,7 +25,7 @@ struct Entry {
 }
 
 impl OpenDialog {
-    /// A dialog that shows this folder.
+    /// Creates a dialog that shows this folder.
     #[must_use]
     pub fn new(folder: &Path) -> Self {
         let folder = std::fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
@@ -37,7 +37,7 @@ impl OpenDialog {
     }
 }
 
-/// Folders first, then scene files, each by name.
+/// Lists the folders, then the scene files, each sorted by name.
 fn entries(folder: &Path) -> Vec<Entry> {
     let found = std::fs::read_dir(folder).into_iter().flatten().flatten().take(MAX_ENTRIES);
     let mut entries: Vec<Entry> = found
@@ -71,7 +71,7 @@ pub fn open_ui(ctx: &egui::Context, dialog: &mut Option<OpenDialog>, actions: &m
     }
 }
 
-/// The contents of the dialog; returns the chosen file.
+/// Lays out the contents of the dialog. Returns the chosen file.
 fn dialog_ui(ui: &mut Ui, open: &mut OpenDialog) -> Option<PathBuf> {
     let line = ui.add(TextEdit::singleline(&mut open.path).desired_width(f32::INFINITY));
     named(&line, Role::TextInput, "Path");

@@ -1,4 +1,4 @@
-//! Advice: what the loader and the mesh doctor found, the remedy, and where it is.
+//! The section of advice: each finding of the loader and the mesh doctor, its remedy, and its locations.
 
 use egui::Ui;
 

@@ -17,7 +17,7 @@ const CURVE_HEIGHT: f32 = 56.0;
 /// Smallest unshot share that the curve shows.
 const CURVE_FLOOR: f32 = 1e-4;
 
-/// `is_dimmed`: the picture shows a light group at another intensity than the bake that would be saved.
+/// Lays out the section. `is_dimmed` is true if the picture shows a light group at another intensity than the bake.
 pub fn bake_ui(ui: &mut Ui, quality: &mut Quality, is_dimmed: bool, facts: &Facts<'_>, actions: &mut Vec<Action>) {
     match &facts.bake.light {
         &LightState::Working { stage, done, elapsed, is_cancelled } => {
@@ -97,7 +97,7 @@ fn describe(settings: &BakeSettings, sizes: &MeshSettings) -> String {
     )
 }
 
-/// The unshot share over time, on a logarithmic scale.
+/// Draws the unshot share over time, on a logarithmic scale.
 fn curve_ui(ui: &mut Ui, curve: &[[f32; 2]]) {
     let (response, painter) = ui.allocate_painter(vec2(ui.available_width(), CURVE_HEIGHT), Sense::hover());
     let frame = response.rect.shrink(2.0);

@@ -1,4 +1,5 @@
-//! The certificate of a bake: the balance of luminous flux, the quality of the form factors, and the work done.
+//! Shows the certificate, the quality report of a bake: the balance of luminous flux, the errors of the form factors,
+//! the work and times, the peak memory.
 
 use egui::{CollapsingHeader, Ui};
 

@@ -30,7 +30,7 @@ use crate::viewer::settings::view::Wire;
 
 const WINDOW: Vec2 = egui::vec2(1280.0, 2400.0);
 
-/// Panels, what they are shown with, and the actions that they have emitted.
+/// Panels, the facts that they show, and the actions that they have returned.
 struct Fixture {
     panels: Panels,
     facts: Facts<'static>,
@@ -69,7 +69,7 @@ fn cornell() -> &'static Scene {
     SCENE.get_or_init(builtin::cornell)
 }
 
-/// A window that is tall enough for all sections, with every section open.
+/// Opens a window that is tall enough for all sections, with every section open.
 fn window(facts: Facts<'static>) -> Harness<'static, Fixture> {
     let mut preferences = Preferences { has_seen_tour: true, ..Preferences::default() };
     for title in SECTIONS {
@@ -113,7 +113,7 @@ fn window_with(facts: Facts<'static>, preferences: Preferences, size: Vec2) -> H
     harness
 }
 
-/// Clicks the control with this name; returns the actions.
+/// Clicks the control with this name. Returns the actions.
 fn click(harness: &mut Harness<'static, Fixture>, name: &str) -> Vec<Action> {
     harness.get_by_label(name).click();
     harness.run_steps(3);

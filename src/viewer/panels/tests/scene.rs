@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// A scene of a file with two material variants.
+/// Returns a scene of a file with two material variants.
 fn shop() -> &'static Scene {
     static SCENE: std::sync::OnceLock<Scene> = std::sync::OnceLock::new();
     SCENE.get_or_init(|| Scene { variants: ["oak", "walnut"].map(str::to_owned).to_vec(), ..builtin::cornell() })

@@ -24,7 +24,7 @@ use crate::viewer::solution::solved::SolvedScene;
 /// Shortest time between two events about progress.
 const PROGRESS_INTERVAL: Duration = Duration::from_millis(250);
 
-/// What a worker does.
+/// The task of a worker.
 pub enum Task {
     /// Loads a scene in a material variant, and bakes it if it has no light.
     Open(Source, Option<String>, BakeSettings),
@@ -82,8 +82,8 @@ impl Runner {
 
     fn bake(&self, scene: &Arc<Scene>, settings: &BakeSettings) -> anyhow::Result<()> {
         self.shared.set_threshold(settings.threshold);
-        // Hemicubes get a device of their own, so that frames do not wait for them. The default method on a software driver
-        // is the hemisphere, which needs no device.
+        // Hemicubes are drawn on a second device, so that frames do not wait for them. The default method on a software
+        // driver is the hemisphere, which needs no device.
         let needs_device = !self.gpu.tier.is_software() || settings.method == Some(Method::Hemicube);
         let gpu = needs_device.then(Gpu::headless).transpose()?;
         let done = bake_with(scene, settings, &BakeContext { gpu: gpu.as_ref(), row_cache: None, observer: self })?;
@@ -133,7 +133,7 @@ impl BakeObserver for Runner {
     fn on_mesh(&self, dark: &BakedScene) {
         self.rest();
         let uploaded = self.uploaded(dark, || self.rest());
-        // The upload begins now and not with the next frame.
+        // Starts the upload now instead of with the next frame.
         self.gpu.queue.submit([]);
         let elements = Arc::clone(&uploaded.buffers);
         self.send(WorkerEvent::MeshUploaded(uploaded));

@@ -8,10 +8,10 @@ use crate::base::progress::{Cancel, Gate, Stage};
 /// State that the worker's thread and the window share.
 pub(super) struct Shared {
     began: Instant,
-    /// Closed while the window draws.
+    /// Gate that the work passes between steps; closed while the window draws.
     pub gate: Gate,
     pub cancel: Cancel,
-    /// The stage and the share of it that is done.
+    /// The stage and its completed fraction.
     progress: Mutex<(Stage, f32)>,
     /// Unshot share at which the bake ends.
     threshold: Mutex<f32>,
@@ -34,7 +34,7 @@ impl Shared {
         })
     }
 
-    /// Stores the progress; that of the solver is also a point of the curve.
+    /// Stores the progress. Progress of the solver also adds a point to the curve.
     pub fn report(&self, stage: Stage, done: f32) {
         *lock(&self.progress) = (stage, done);
         if stage == Stage::Solve {
@@ -60,12 +60,12 @@ impl Shared {
         lock(&self.light_due).is_some_and(|due| due <= Instant::now())
     }
 
-    /// The window has to draw the light that is uploaded now before the next is due.
+    /// Holds back the next upload until the window has drawn the light that is uploaded now.
     pub fn wait_for_window(&self) {
         *lock(&self.light_due) = None;
     }
 
-    /// The window has drawn the last light: the next is due after `pause`.
+    /// Called after the window has drawn the last light. The next upload is due after `pause`.
     pub fn request_light(&self, pause: Duration) {
         lock(&self.light_due).get_or_insert_with(|| Instant::now() + pause);
     }

@@ -20,7 +20,7 @@ pub struct Worker {
     thread: Option<JoinHandle<()>>,
 }
 
-/// Keeps the work paused until it is dropped.
+/// Guard that pauses the work until it is dropped.
 pub struct Paused(Arc<Shared>);
 
 impl Drop for Paused {
@@ -30,7 +30,7 @@ impl Drop for Paused {
 }
 
 impl Worker {
-    /// Starts a thread for `task`; `gpu` is the window's device, and `run` the number that its events carry.
+    /// Starts a thread for `task`. `gpu` is the window's device, `run` the number in the events of the thread.
     ///
     /// # Errors
     /// Returns an error if the system cannot start a thread.
@@ -45,36 +45,36 @@ impl Worker {
         Ok(Self { shared, thread: Some(thread.context("cannot start the bake")?) })
     }
 
-    /// The stage, and the share of it that is done, 0..1.
+    /// Returns the stage and its completed fraction, 0..1.
     #[must_use]
     pub fn progress(&self) -> (Stage, f32) {
         self.shared.progress()
     }
 
-    /// Convergence of the bake: seconds since the beginning, and unshot share of the light.
+    /// Returns the convergence of the bake: seconds since the beginning, and unshot share of the light.
     #[must_use]
     pub fn curve(&self) -> Vec<[f32; 2]> {
         self.shared.curve()
     }
 
-    /// Asks the work to end soon; what is solved is kept.
+    /// Cancels the work, which ends soon. The light that is solved so far remains.
     pub fn cancel(&self) {
         self.shared.cancel.cancel();
     }
 
-    /// The work has been asked to end.
+    /// Returns true if the work has been cancelled.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.shared.cancel.is_cancelled()
     }
 
-    /// The thread has ended.
+    /// Returns true if the thread has ended.
     #[must_use]
     pub fn is_finished(&self) -> bool {
         self.thread.as_ref().is_none_or(JoinHandle::is_finished)
     }
 
-    /// Requests an upload of new light after `pause`, once the last light has been drawn.
+    /// Requests an upload of new light after `pause`. Called once the last light has been drawn.
     pub fn request_light(&self, pause: Duration) {
         self.shared.request_light(pause);
     }
@@ -88,7 +88,7 @@ impl Worker {
 }
 
 impl Drop for Worker {
-    /// Waits for the thread: the device must outlive its work.
+    /// Waits for the thread, since the device must outlive its work.
     fn drop(&mut self) {
         self.cancel();
         self.shared.gate.open();

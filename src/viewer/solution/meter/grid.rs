@@ -11,11 +11,11 @@ use crate::scene::{Scene, normal_of};
 use crate::viewer::camera::collider::Pick;
 use crate::viewer::solution::solved::SolvedScene;
 
-/// Most points of a grid.
+/// Largest number of points of a grid.
 const MAX_POINTS: usize = 400;
-/// Least cosine between the normals of triangles in the same plane.
+/// Smallest cosine between the normals of triangles in the same plane.
 const SAME_NORMAL: f32 = 0.999;
-/// Largest distance of triangles in the same plane, as a share of the largest extent of the scene.
+/// Largest distance of triangles in the same plane, as a fraction of the largest extent of the scene.
 const SAME_PLANE: f32 = 1e-3;
 
 /// The points of a grid.
@@ -37,8 +37,8 @@ pub struct Grid {
 }
 
 impl GridPlan {
-    /// A grid over the flat part of the picked instance, `height` metres above it. Points are about `spacing` metres apart, or
-    /// farther if there were more than 400.
+    /// Lays a grid over the flat part of the picked instance, `height` metres above it. Points are about `spacing`
+    /// metres apart, or farther if that gives more than 400 points.
     #[must_use]
     pub fn over(scene: &Scene, pick: &Pick, spacing: f32, height: f32) -> Self {
         let flat = flat_part(scene, pick);
@@ -75,37 +75,37 @@ impl GridPlan {
 }
 
 impl Grid {
-    /// Illuminance at each point, lux.
+    /// Returns the illuminance at each point, lux.
     pub fn lux(&self) -> impl Iterator<Item = f32> {
         self.measured.iter().map(|measured| luminance(measured.total))
     }
 
-    /// Least illuminance, lux.
+    /// Returns the smallest illuminance, lux.
     #[must_use]
     pub fn min(&self) -> f32 {
         self.lux().fold(f32::INFINITY, f32::min)
     }
 
-    /// Greatest illuminance, lux.
+    /// Returns the greatest illuminance, lux.
     #[must_use]
     pub fn max(&self) -> f32 {
         self.lux().fold(0.0, f32::max)
     }
 
-    /// Mean illuminance, lux.
+    /// Returns the mean illuminance, lux.
     #[must_use]
     pub fn mean(&self) -> f32 {
         self.lux().sum::<f32>() / self.measured.len().max(1) as f32
     }
 
-    /// Uniformity U0: least over mean illuminance (EN 12464-1); 0 without light.
+    /// Computes the uniformity U0 = smallest illuminance / mean illuminance (EN 12464-1); 0 without light.
     #[must_use]
     pub fn uniformity(&self) -> f32 {
         if self.mean() > 0.0 { self.min() / self.mean() } else { 0.0 }
     }
 }
 
-/// Triangles of the picked instance in the plane of the pick, with the same normal.
+/// Returns the triangles of the picked instance that lie in the plane of the pick and have the same normal.
 fn flat_part(scene: &Scene, pick: &Pick) -> Vec<TriangleId> {
     let tolerance = SAME_PLANE * scene.bounds().extent();
     let front = normal_of(scene.corners(pick.triangle));
@@ -120,13 +120,13 @@ fn flat_part(scene: &Scene, pick: &Pick) -> Vec<TriangleId> {
     scene.fronts().filter(lies_there).collect()
 }
 
-/// Axes of a plane, the first of them horizontal.
+/// Returns the axes of a plane; the first is horizontal.
 fn level(normal: Vec3, right: Vec3, up: Vec3) -> (Vec3, Vec3) {
     let flat = if normal.y.abs() > 0.9 { Vec3::X.reject_from(normal) } else { Vec3::Y.cross(normal) };
     flat.try_normalize().map_or((right, up), |right| (right, normal.cross(right)))
 }
 
-/// The point lies in the triangle, of either orientation.
+/// Returns true if the point lies in the triangle, of either orientation.
 fn contains([a, b, c]: [Vec2; 3], p: Vec2) -> bool {
     let side = |from: Vec2, to: Vec2| (to - from).perp_dot(p - from);
     let sides = [side(a, b), side(b, c), side(c, a)];

@@ -1,7 +1,7 @@
 //! The lux meter: readings at points, grids of points, and tables of both.
 //!
-//! Readings are those of `hemicube measure`, by the same function; only the shares of the light groups are interpolated
-//! from the light at the vertices.
+//! Readings are computed by the function that `hemicube measure` calls. Only the shares of the light groups are
+//! interpolated from the light at the vertices.
 
 mod grid;
 mod reading;

@@ -39,9 +39,9 @@ pub struct GroupReading {
 /// The surface under the meter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SurfaceReading {
-    /// Name of its instance.
+    /// Name of the instance.
     pub instance: String,
-    /// Name of its material.
+    /// Name of the material.
     pub material: String,
     /// Index of the patch.
     pub patch: usize,
@@ -49,30 +49,30 @@ pub struct SurfaceReading {
     pub element: usize,
     /// Mean diffuse reflectance of the element.
     pub reflectance: Vec3,
-    /// Emitted light, lumen a square metre.
+    /// Emitted light, lm/m².
     pub exitance: Vec3,
 }
 
 impl Reading {
-    /// Illuminance, lux.
+    /// Returns the illuminance, lux.
     #[must_use]
     pub fn lux(&self) -> f32 {
         luminance(self.measured.total)
     }
 
-    /// Share of the direct light in the illuminance.
+    /// Returns the share of the direct light in the illuminance.
     #[must_use]
     pub fn direct_share(&self) -> f32 {
         luminance(self.measured.direct) / self.lux().max(f32::MIN_POSITIVE)
     }
 
-    /// Radiosity, lumen a square metre: emitted plus reflected light, B = M + rho E.
+    /// Returns the radiosity, lm/m²: emitted plus reflected light, B = M + rho E.
     #[must_use]
     pub fn radiosity(&self) -> Option<Vec3> {
         self.surface.as_ref().map(|surface| surface.exitance + surface.reflectance * self.measured.total)
     }
 
-    /// Share of each group in the stored light `[g]`; 0 for all without light.
+    /// Returns the share of each group in the stored light `[g]`; all are 0 if there is no light.
     #[must_use]
     pub fn group_shares(&self) -> Vec<f32> {
         let lux: Vec<f32> = self.groups.iter().map(|group| luminance(group.direct + group.indirect)).collect();
@@ -80,7 +80,7 @@ impl Reading {
         lux.iter().map(|lux| lux / total).collect()
     }
 
-    /// Illuminance with dimmed groups, lux: the measured illuminance times the ratio of dimmed to full stored light.
+    /// Computes the illuminance with dimmed groups, lux: the measured illuminance times dimmed / full stored light.
     #[must_use]
     pub fn dimmed_lux(&self, dials: &[GroupDial]) -> f32 {
         let stored = |weight: &dyn Fn(usize) -> Vec3| -> f32 {
@@ -103,13 +103,13 @@ pub fn read(solved: &SolvedScene, point: MeasuringPoint, progress: &dyn Progress
     Some(Reading { point, measured, groups, surface })
 }
 
-/// The measuring point on a picked surface.
+/// Returns the measuring point on a picked surface.
 #[must_use]
 pub fn point_of(pick: &Pick) -> MeasuringPoint {
     MeasuringPoint { position: pick.point, normal: pick.normal }
 }
 
-/// The element of the bake at a point, on the side of its normal.
+/// Returns the element of the bake at a point, on the side of its normal.
 fn element_at(solved: &SolvedScene, point: &MeasuringPoint) -> Option<usize> {
     let reach = 1e-3 * solved.baked.scene.bounds().extent();
     let tracer = Tracer::new(&solved.baked.scene);
@@ -122,7 +122,7 @@ fn element_at(solved: &SolvedScene, point: &MeasuringPoint) -> Option<usize> {
     Some(if root.has_backs { front + root.num_elements as usize } else { front })
 }
 
-/// Stored light of each group at a point of an element, interpolated between its corners.
+/// Interpolates the stored light of each group between the corners of an element.
 fn group_light(solved: &SolvedScene, point: &MeasuringPoint, element: Option<usize>) -> Vec<GroupReading> {
     let scene = &solved.baked.scene;
     let corners = element.and_then(|e| scene.triangles.get(e)).map(|triangle| triangle.vertices);
@@ -143,7 +143,7 @@ fn group_light(solved: &SolvedScene, point: &MeasuringPoint, element: Option<usi
         .collect()
 }
 
-/// Barycentric coordinates of a point in the plane of a triangle.
+/// Computes the barycentric coordinates of a point in the plane of a triangle.
 fn barycentric([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
     let normal = (b - a).cross(c - a);
     let whole = normal.length_squared().max(f32::MIN_POSITIVE);

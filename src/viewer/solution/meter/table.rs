@@ -15,10 +15,10 @@ use crate::viewer::solution::file_names::next_free_name;
 const COLUMNS: [&str; 15] =
     ["px", "py", "pz", "nx", "ny", "nz", "E_r", "E_g", "E_b", "Ed_r", "Ed_g", "Ed_b", "lux", "surface", "patch"];
 
-/// All pinned readings, then all points of the grid.
+/// Formats the table: all pinned readings, then all points of the grid.
 ///
 /// # Errors
-/// Returns an error only if the CSV writer does; in memory it never fails.
+/// Returns an error if the CSV writer fails, which it does not in memory.
 pub(super) fn table_of(pins: &[Reading], grid: Option<&Grid>) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(COLUMNS)?;

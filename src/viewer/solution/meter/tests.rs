@@ -14,7 +14,7 @@ use crate::viewer::camera::collider::{Collider, Pick};
 use crate::viewer::settings::light::GroupDial;
 use crate::viewer::solution::solved::SolvedScene;
 
-/// The Cornell box, baked once in draft quality by rays.
+/// Returns the Cornell box, baked once in draft quality by rays.
 fn cornell() -> &'static SolvedScene {
     static SOLVED: OnceLock<SolvedScene> = OnceLock::new();
     SOLVED.get_or_init(|| {
@@ -30,7 +30,7 @@ fn cornell() -> &'static SolvedScene {
     })
 }
 
-/// The floor in a corner of the box, seen from above.
+/// Picks the floor in a corner of the box from above.
 fn floor_pick() -> Pick {
     let collider = Collider::new(&cornell().scene);
     collider.pick(Vec3::new(4.8, 3.0, 0.8), Vec3::NEG_Y, |_| false).expect("the floor")
@@ -56,7 +56,7 @@ fn shares_of_groups_sum_to_one_and_dimming_follows_them() {
     let dial = |intensity| vec![GroupDial { intensity, ..GroupDial::of("lamp") }; reading.groups.len()];
     assert!((reading.dimmed_lux(&dial(0.5)) - 0.5 * reading.lux()).abs() < 1e-3 * reading.lux());
     assert_eq!(reading.dimmed_lux(&dial(0.0)), 0.0);
-    // Stored light is interpolated between vertices, and near to what is measured.
+    // Stored light is interpolated between vertices, so it only approximates the measured light.
     let stored: f32 = reading.groups.iter().map(|group| luminance(group.direct + group.indirect)).sum();
     assert!((stored / reading.lux() - 1.0).abs() < 0.25, "{stored} {}", reading.lux());
 }
