@@ -1,10 +1,10 @@
 // The light of each vertex, summed over the light groups with their weights.
 //
-// The sum changes when a lamp is dimmed or the light is written, but not with the camera: weighted_light.rs keeps it.
+// The sum is computed again when a lamp is dimmed or new light is written. It does not depend on the camera.
 
 // Irradiance of the vertices: [2 x group + (0 direct, 1 indirect)][vertex], three floats each.
 @group(1) @binding(0) var<storage, read> irradiance: array<f32>;
-// [vertex], direct then indirect, three floats each.
+// Summed irradiance of the vertices: [vertex], direct then indirect, three floats each.
 @group(1) @binding(1) var<storage, read_write> weighted: array<f32>;
 
 @compute @workgroup_size(64)

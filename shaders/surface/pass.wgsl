@@ -1,11 +1,12 @@
 // Surface pass: the radiance that leaves each visible point towards the eye.
 //
-//   L = emission + rho / pi x sum over groups of weight x (direct x E_direct + indirect x E_indirect)
+//   L = emission + rho x (ambient + 1 / pi x sum over groups of weight x (direct x E_direct + indirect x E_indirect))
 //
-// Irradiance E is summed over the groups at the vertices (shaders/stored_light/weighted_light.wgsl) and interpolated; rho and
-// emission are read for each pixel, so textures stay sharp. Whatever is linear in a triangle is computed at its vertices.
+// Irradiance E is summed over the groups at the vertices (shaders/stored_light/weighted_light.wgsl) and interpolated.
+// rho and emission are read for each pixel, so textures stay sharp. Whatever is linear in a triangle is computed at its
+// vertices.
 
-// What is shown of surfaces; a pipeline each.
+// Quantity that is shown of surfaces. Each value has a pipeline of its own.
 const SHADING_LIT: u32 = 0u;
 const SHADING_IRRADIANCE_ONLY: u32 = 1u;
 const SHADING_ALBEDO: u32 = 2u;
@@ -16,20 +17,22 @@ override SHADING: u32 = SHADING_LIT;
 const PI: f32 = 3.14159265358979;
 // Largest value that a half float holds, with room for rounding.
 const LARGEST_HALF: f32 = 65000.0;
-// Direct light comes from the lights themselves and not from the vertices.
+// True if direct light comes from the lights themselves and not from the vertices.
 override LIT_BY_LIGHTS: bool = false;
-// The target receives display colours, under the given or last metered exposure and by TONE_MAP; else radiance.
+// True if the target receives display colours: exposed by the given or the last metered exposure, then mapped by
+// TONE_MAP. Otherwise it receives radiance.
 override DISPLAYS: bool = false;
 override TONE_MAP: u32 = TONE_MAP_NEUTRAL;
-// The back of a single-sided surface blocks light and sends none.
+// True if the back of the surface is drawn black: a single-sided surface blocks light and sends none from behind.
 override HAS_DARK_BACK: bool = false;
-// The base colour is shown without light (KHR_materials_unlit).
+// True if the base colour is shown without light (KHR_materials_unlit).
 override IS_UNLIT: bool = false;
-// Metals reflect their base colour diffusely.
+// True if metals reflect their base colour diffusely.
 override METAL_AS_DIFFUSE: bool = true;
 
 @group(1) @binding(0) var<storage, read> metered_exposure: f32;
-// Light of the vertices in tiles (shaders/stored_light/light_tiles.wgsl); a placeholder if there are none.
+// Light of the vertices in tiles (shaders/stored_light/light_tiles.wgsl); a placeholder texture if the light is not in
+// tiles.
 @group(1) @binding(1) var tiles: texture_2d<f32>;
 @group(1) @binding(2) var between_texels: sampler;
 
@@ -38,13 +41,13 @@ struct Vertex {
     @location(1) normal: vec3f,
     @location(2) uv: vec4f,
     @location(3) colour: vec4f,
-    // Irradiance, summed over the light groups. With light in tiles instead: coordinates in the tile (0..1), and the first
-    // texel and the width of the tile, both as shares of the texture.
+    // Direct and indirect irradiance, summed over the light groups. If light is in tiles, the two hold coordinates in
+    // the tile (0..1) and the first texel and the width of the tile, as shares of the texture.
     @location(4) direct: vec3f,
     @location(5) indirect: vec3f,
 }
 
-// What the vertices of every surface pass to its pixels.
+// Returns what the vertices of every surface pass to its pixels.
 fn surface_varying(in: Vertex) -> Varying {
     var out: Varying;
     out.position = frame.projection_from_world * vec4f(in.position, 1.0);
@@ -57,8 +60,8 @@ fn surface_varying(in: Vertex) -> Varying {
     return out;
 }
 
-// The radiance of white paint, its place in a tile, or the normal if no light is shown. They share a location because
-// a software driver writes every one.
+// Returns the radiance of white paint, or the place of the light in a tile, or the normal if normals are shown. They
+// share a location because a software driver writes every location.
 fn handed_light(in: Vertex) -> vec4f {
     if SHADING == SHADING_NORMALS {
         return vec4f(in.normal, 0.0);
@@ -66,13 +69,13 @@ fn handed_light(in: Vertex) -> vec4f {
     if IS_TILED {
         return vec4f(in.direct, in.indirect.x);
     }
-    // Surfaces that blend keep the stored light.
+    // Surfaces that blend always show the stored light.
     let direct = select(frame.direct, 0.0, LIT_BY_LIGHTS && ALPHA_MODE != ALPHA_BLEND);
     let irradiance = direct * in.direct + frame.indirect * in.indirect;
     return vec4f(light_scale() * (frame.ambient + irradiance / PI), 0.0);
 }
 
-// Factor on shaded colours: pre-exposure if they are light.
+// Returns the factor on shaded colours: pre-exposure if they are light, else 1.
 fn light_scale() -> f32 {
     return select(1.0, frame.pre_exposure, shows_light());
 }
@@ -81,7 +84,7 @@ fn shows_light() -> bool {
     return SHADING == SHADING_LIT || SHADING == SHADING_IRRADIANCE_ONLY;
 }
 
-// Factor from shaded colours to the target.
+// Returns the factor from shaded colours to the values of the target.
 fn target_scale() -> f32 {
     let exposure = select(metered_exposure, frame.exposure, frame.exposure > 0.0);
     let scale = select(frame.pre_exposure, exposure, DISPLAYS);
@@ -94,8 +97,8 @@ struct Shown {
     @location(1) luminance: f32,
 }
 
-// The values of the targets for a fragment that receives `direct`, irradiance scaled by pre-exposure, in addition to the
-// light of the vertices.
+// Returns the values of the targets. The fragment receives `direct`, irradiance scaled by pre-exposure, in addition to
+// the light of the vertices.
 fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> Shown {
     let base = base_colour(in.colour, in.base_and_metallic_uv.xy);
     let coverage = coverage(base.a);
@@ -109,11 +112,11 @@ fn surface_colour(in: Varying, is_front: bool, direct: vec3f) -> Shown {
         return Shown(displayed, min(luminance(shown), LARGEST_HALF));
     }
     let stored = min(scaled, vec3f(LARGEST_HALF));
-    // Blending is premultiplied. The coverage of a mask acts through the samples instead.
+    // Blending is premultiplied. A mask is not: its coverage selects samples instead.
     return Shown(vec4f(select(stored, stored * coverage, ALPHA_MODE == ALPHA_BLEND), coverage), 0.0);
 }
 
-// Radiance of white paint in the light of the vertices.
+// Returns the radiance of white paint under the light of the vertices.
 fn stored_radiance(in: Varying) -> vec3f {
     if !IS_TILED {
         return max(in.light.rgb, vec3f(0.0));
@@ -126,7 +129,7 @@ fn stored_radiance(in: Varying) -> vec3f {
     return select(radiance / frame.pre_exposure, radiance, shows_light());
 }
 
-// Radiance of white paint in the direct light of the lights themselves.
+// Returns the radiance of white paint under the light of the lights themselves.
 fn direct_radiance(direct: vec3f) -> vec3f {
     if !LIT_BY_LIGHTS || ALPHA_MODE == ALPHA_BLEND {
         return vec3f(0.0);
@@ -137,7 +140,7 @@ fn direct_radiance(direct: vec3f) -> vec3f {
     return direct * frame.live;
 }
 
-// Colour of the fragment; light is scaled by pre-exposure.
+// Returns the colour of the fragment. Light is scaled by pre-exposure.
 fn shade(in: Varying, base: vec3f, is_front: bool, direct: vec3f) -> vec3f {
     let metallic = metallic(in.emission_and_metallic.w, in.base_and_metallic_uv.zw);
     let emission = emission(in.emission_and_metallic.xyz, in.emissive_uv_and_scales.xy);

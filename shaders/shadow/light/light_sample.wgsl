@@ -1,20 +1,21 @@
 // A light sample and its unshadowed irradiance. The uniform is written by src/render/shadow/light/uniforms.rs; the
 // formulas are those of src/render/shadow/light/sample.rs.
 
-// Light at a lower cosine is taken for none, so that no decision about it is compared.
+// Light at a lower cosine counts as zero. So nearly edge-on surfaces are dark whatever a technique decides about them.
 const GRAZING_COSINE: f32 = 1e-4;
 const SHORTEST_SQUARE: f32 = 1e-12;
 
-// Bits of `kind`: the light is directional.
+// Bit of `kind`: the light is directional.
 const IS_PARALLEL: u32 = 1u;
-// A point of an emissive surface: its intensity is proportional to the cosine to the normal, on one side.
+// Bit of `kind`: the sample is a point of an emissive surface. It emits on one side, in proportion to the cosine to the
+// normal.
 const IS_SURFACE: u32 = 2u;
-// A spot light.
+// Bit of `kind`: the light is a spot light.
 const HAS_CONE: u32 = 4u;
-// glTF `range` is given.
+// Bit of `kind`: the light has a glTF `range`.
 const HAS_RANGE: u32 = 8u;
-// The origin of light space is that of the world and not the light, because differences between pixels would be
-// rounded away.
+// Bit of `kind`: the light is far from the scene, and the origin of light space is that of the world. With the origin
+// at the light, differences between neighbouring pixels would be lost to rounding.
 const IS_FAR: u32 = 16u;
 
 struct LightSample {
@@ -24,12 +25,13 @@ struct LightSample {
     right: vec3f,
     kind: u32,
     up: vec3f,
-    // 1 / range^2, 1 / m^2.
+    // 1 / range^2, in 1 / m^2.
     inverse_square_range: f32,
     back: vec3f,
-    // Share within the cone of a spot = clamp(cosine x cone_scale + cone_offset)^2, as in KHR_lights_punctual.
+    // Fraction of the intensity inside the cone of a spot: saturate(cosine x cone_scale + cone_offset)^2, as in
+    // KHR_lights_punctual.
     cone_scale: f32,
-    // Candela per channel, or lux for a directional light; dimmed with its group and scaled by pre-exposure.
+    // Candela per channel, or lux for a directional light. Dimmed with its group and scaled by pre-exposure.
     intensity: vec3f,
     cone_offset: f32,
     // Vector from the light to the origin of light space, for far lights.
@@ -39,9 +41,9 @@ struct LightSample {
 
 // A visible point in light space.
 struct Receiver {
-    // Metres from the light; from the origin for a directional light.
+    // Vector from the light to the point, metres; for a directional light, from the origin.
     from_light: vec3f,
-    // Along the normal of its triangle on the visible side, of any length.
+    // Vector along the normal of its triangle on the visible side, of any length.
     facet: vec3f,
     // Unit shading normal.
     normal: vec3f,
@@ -63,9 +65,9 @@ fn from_light(light: LightSample, kind: u32, point: vec3f) -> vec3f {
 
 // Direction and distance of the light at a point.
 struct Arrival {
-    // Unit.
+    // Unit vector towards the light.
     to_light: vec3f,
-    // 1 / m.
+    // 1 / distance, 1 / m.
     inverse_distance: f32,
 }
 
@@ -75,8 +77,8 @@ fn arrival(kind: u32, from_light: vec3f) -> Arrival {
     return Arrival(to_light, inverse_distance);
 }
 
-// Returns the unshadowed irradiance, scaled by pre-exposure: E = I cos / r^2. `kind` is the light's, or a constant if
-// it is known when the pipeline is created; the compiler then removes the loads of what the light does not have.
+// Returns the unshadowed irradiance, scaled by pre-exposure: E = I cos / r^2. `kind` is that of the light. If a
+// pipeline passes it as a constant, the compiler removes the loads of properties that the light lacks.
 fn irradiance(light: LightSample, kind: u32, arrival: Arrival, normal: vec3f) -> vec3f {
     let cosine = dot(normal, arrival.to_light);
     let share = cosine * emitted_share(light, kind, arrival.to_light) * falloff(light, kind, arrival.inverse_distance);

@@ -1,10 +1,9 @@
-// Block planes pass: computes for each block of texels of a shadow map the plane that all of its texels show, if they
-// do.
+// Block planes pass: fits a plane to each block of texels of a shadow map, if all of its texels lie on one.
 //
 // A plane in space is a plane in a map, too. Most blocks lie within a large triangle; there one comparison with the
 // plane replaces a filter over many texels (see src/render/shadow/map/block_planes.rs).
 
-// Largest deviation from the plane, as a share of its change of depth from texel to texel: less than the bias.
+// Largest deviation from the plane, as a share of its change of depth from texel to texel. It is less than the bias.
 const TOLERANCE: f32 = 0.1;
 
 @group(0) @binding(0) var<uniform> shadow_map: ShadowMap;
@@ -12,7 +11,7 @@ const TOLERANCE: f32 = 0.1;
 @group(0) @binding(2) var map_sampler: sampler;
 
 struct Varying {
-    // One pixel for each block.
+    // One pixel for each block of texels.
     @builtin(position) position: vec4f,
     @location(0) @interpolate(flat) layer: u32,
     @location(1) @interpolate(flat) reach: u32,
@@ -28,8 +27,8 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) layer: u32
     return Varying(position, layer, shadow_map.reach, shadow_map.inverse_resolution, shadow_map.rounding);
 }
 
-// Returns the plane's depth at texel (0, 0), its change per texel to the right and downwards, and 1 if all texels
-// show it.
+// Returns the plane's depth at texel (0, 0), its change per texel to the right and downwards, and 1 if all texels lie
+// on it.
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4f {
     let span = BLOCK + 2u * in.reach;

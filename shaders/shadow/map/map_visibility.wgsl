@@ -1,6 +1,6 @@
 // Visibility by the shadow map of the light sample.
 
-// The map has six faces round a point; else one.
+// True if the map has six faces round a point light, false if it has one.
 override IS_CUBE: bool = false;
 
 @group(2) @binding(0) var<uniform> shadow_map: ShadowMap;

@@ -5,20 +5,22 @@
 // with the depth of the receiver's plane in the middle of that texel (receiver plane depth bias, Isidoro 2006,
 // "Shadow mapping: GPU-based tips and techniques"):
 //
-//     lit = mean over texels (i, j) of  [ depth + dx fall.x + dy fall.y + bias >= stored(i, j) ]
+//     lit = mean over texels (i, j) of  [ depth + dx slope.x + dy slope.y + bias >= stored(i, j) ]
 //
-// (dx, dy) is the offset of the texel from the point, and depth is reversed, so that larger is nearer to the light.
+// (dx, dy) is the offset of the texel from the point; slope (`fall` in the code) is the change of depth from texel to
+// texel along the surface. Depth is reversed: larger is nearer to the light.
 
-// Another bit of the kind of a light: its map has six faces, in the order +X -X +Y -Y +Z -Z; else one face, towards -Z.
+// Another bit of `kind`: the map has six faces, in the order +X -X +Y -Y +Z -Z. Otherwise it has one, towards -Z.
 const HAS_CUBE: u32 = 32u;
 const FACE_AHEAD: u32 = 5u;
 
 // Radius of the filter, texels: it is (2 r + 1) texels wide.
 override PCF_RADIUS: i32 = 1;
-// Points are shifted along their normal (normal offset).
+// True if points are shifted along their normal (normal offset).
 override HAS_NORMAL_OFFSET: bool = true;
 
-// Returns the share of a light sample that reaches a point according to its map. False for `receives` saves the lookup.
+// Returns the fraction of a light sample that reaches a point, according to its map. If `receives` is false, there is
+// no lookup and the result is 0.
 fn visible_share(
     receives: bool,
     kind: u32,
@@ -56,7 +58,7 @@ struct MapPoint {
     // Position in the face, texels.
     texel: vec2f,
     depth: f32,
-    // Change of depth from texel to texel along the surface: the plane of a triangle is a plane in the map, too.
+    // Slope of the surface: change of depth from texel to texel. The plane of a triangle is a plane in the map, too.
     fall: vec2f,
 }
 
@@ -70,15 +72,15 @@ fn in_map(kind: u32, shadow_map: ShadowMap, from_light: vec3f, facet: vec3f) -> 
     let scale = shadow_map.scale * select(inverse_ahead, 1.0, is_parallel);
     let texel = shadow_map.origin + vec2f(scale, -scale) * seen.xy;
     let depth = shadow_map.depth_scale * select(inverse_ahead, seen.z, is_parallel) + shadow_map.depth_offset;
-    // A surface seen edge-on from the light has an infinite slope; it is taken for none.
+    // A surface seen edge-on from the light has an infinite slope; the slope then counts as zero.
     let divisor = shadow_map.scale * select(dot(normal, seen), -normal.z, is_parallel);
     let slope = select(shadow_map.depth_scale / divisor, 0.0, divisor == 0.0);
     return MapPoint(layer, texel, depth, vec2f(slope, -slope) * normal.xy);
 }
 
-// The PCF loop: returns the mean of the comparisons over the texels round a point. In each row the first and the last
-// texel are weighted by the share that the filter covers of them, so that shadows move smoothly. One `textureGather`
-// reads 2 x 2.
+// The PCF loop: returns the mean of the comparisons over the texels round a point. The filter covers the first and the
+// last texel of each row and column only partly, and their weight is the covered fraction. So shadows move smoothly.
+// One `textureGather` reads 2 x 2 texels.
 fn pcf(
     matters: bool,
     shadow_map: ShadowMap,
@@ -95,7 +97,7 @@ fn pcf(
     let before_plane = select(0.0, 1.0, depth >= block.x + block.y * at.texel.x + block.z * at.texel.y);
     let share = at.texel - floor(at.texel);
     var sum = 0.0;
-    // Software drivers run the first iteration of a loop for idle pixels too; these all read the same texel.
+    // Software drivers run the first iteration of a loop for inactive pixels too; these all read the same texel.
     let is_enough = is_plane || !matters;
     let num_gathers = select((PCF_RADIUS + 1) * (PCF_RADIUS + 1), 0, is_enough);
     let middle = select(floor(at.texel), vec2f(0.0), is_enough);

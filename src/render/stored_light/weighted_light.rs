@@ -4,8 +4,8 @@
 //! E[v] = sum over groups g of weight[g] * E[g][v]
 //! ```
 //!
-//! Light is linear, so dimming a lamp scales its group. A compute pass finds the sum when the light or a weight changes and
-//! keeps it: a moving camera costs nothing.
+//! Light is linear, so dimming a lamp scales its group. A compute pass computes the sum when the light or a weight
+//! changes, and the sum is cached until then. It does not depend on the camera.
 
 use glam::Vec3;
 
@@ -23,13 +23,13 @@ pub(in crate::render) const WEIGHTED_LIGHT: Shader =
 
 /// Invocations of a compute group.
 const GROUP: u32 = 64;
-/// Most compute groups in a row that every device can dispatch.
+/// Largest number of compute groups in a row that every device can dispatch.
 const MAX_ROW: u32 = 65_535;
 
 /// Direct and indirect irradiance of a vertex.
 type WeightedVertex = [Vec3; 2];
 
-/// The sum that a renderer draws, and the pass that computes it.
+/// The summed light for a renderer, and the pass that computes it.
 pub struct WeightedLight {
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::ComputePipeline,
@@ -41,7 +41,7 @@ struct Sum {
     buffer: wgpu::Buffer,
 }
 
-/// The light and the weights that were summed.
+/// The light and the weights that the cached sum was computed from.
 #[derive(PartialEq)]
 struct Summed {
     light: LightVersion,
@@ -75,7 +75,7 @@ impl WeightedLight {
         Self { layout, pipeline, sum: None }
     }
 
-    /// The vertex buffer of the summed light of a scene. `frame` holds the weights of `settings`.
+    /// Returns the vertex buffer of the summed light of a scene. `frame` holds the weights of `settings`.
     pub fn of(
         &mut self,
         gpu: &Gpu,

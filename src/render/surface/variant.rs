@@ -1,4 +1,5 @@
-//! Pipelines of the surface pass: one for each kind of surface and each way to show it, so that shaders need no branches.
+//! Pipelines of the surface pass: one for each kind of surface and each way to show it. Each is compiled for its case,
+//! so shaders need no branches.
 
 use crate::gpu::Gpu;
 use crate::render::scene::draw_batch::{DrawBatch, Faces};
@@ -8,11 +9,11 @@ use crate::render::targets::{DEPTH_FORMAT, HDR_FORMAT, LUMINANCE_FORMAT};
 use crate::render::{RenderSettings, Shading, ToneMap};
 use crate::scene::AlphaMode;
 
-/// Blends premultiplied colour; coverage adds up.
+/// Blend state of premultiplied colour: source + (1 - source alpha) x target, for colour and alpha.
 const PREMULTIPLIED: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
 
-/// Replaces colour and keeps the larger alpha: the samples of a mask are solid, and their alpha is the coverage of the pixel,
-/// which must not fade the surface behind.
+/// Replaces colour and keeps the larger alpha. A sample of a mask is solid, but its alpha is the coverage of the pixel.
+/// If that replaced the alpha 1 of a surface behind, the background would show through.
 const KEEP_LARGER_ALPHA: wgpu::BlendState = wgpu::BlendState {
     color: wgpu::BlendComponent::REPLACE,
     alpha: wgpu::BlendComponent {
@@ -56,7 +57,7 @@ pub struct Variant {
     alpha: Alpha,
     has_textures: bool,
     is_unlit: bool,
-    /// Light is in tiles, which needs another shader module.
+    /// True if light is in tiles. This needs another shader module.
     pub is_tiled: bool,
     culls: bool,
     has_dark_back: bool,
@@ -69,9 +70,9 @@ pub struct Variant {
 pub enum Output {
     /// Radiance times pre-exposure, into [`HDR_FORMAT`].
     Radiance,
-    /// Display colours by this tone map, into this format.
+    /// Display colours by this tone map, into a target of this format.
     Display(wgpu::TextureFormat, ToneMap),
-    /// The same, with luminance times pre-exposure into [`LUMINANCE_FORMAT`].
+    /// Display colours as for [`Self::Display`], and luminance times pre-exposure into [`LUMINANCE_FORMAT`].
     DisplayAndLuminance(wgpu::TextureFormat, ToneMap),
 }
 
@@ -84,7 +85,7 @@ enum Alpha {
 }
 
 impl Variant {
-    /// The variant that draws a batch with these settings.
+    /// Returns the variant that draws a batch with these settings.
     pub fn new(batch: &DrawBatch, settings: &RenderSettings, output: Output) -> Self {
         Self {
             shading: settings.shading,
@@ -103,7 +104,7 @@ impl Variant {
         }
     }
 
-    /// The pipeline for targets with `samples` samples a pixel; `constants` are those of the direct light.
+    /// Creates the pipeline for targets with `samples` samples a pixel. `constants` are those of the direct light.
     pub fn pipeline(
         self,
         gpu: &Gpu,

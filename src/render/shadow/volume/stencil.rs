@@ -8,16 +8,16 @@
 //! z-fail:  depth test fails:   back  +1, front -1      (Everitt and Kilgard 2002)
 //! ```
 //!
-//! z-fail walks from infinity to the point and counts faces behind it. Both operations wrap at 256, so that the order
-//! of faces does not matter; being in a multiple of 256 volumes counts as being in none.
+//! z-fail walks from infinity to the point and counts faces behind it. Both operations wrap at 256, so the order of
+//! faces does not matter. A point in a multiple of 256 volumes counts as lit.
 
 use crate::gpu::Gpu;
 use crate::render::shadow::light::pass_setup::PassSetup;
 use crate::render::shadow::shared::pipeline::{CORNER, PipelineRecipe, against_depth, pipeline_layout};
 use crate::render::shadow::shared::stencil::{both_faces, on_pass};
 
-/// A side begins at the edge of its caster, where both are equally deep but for rounding, and a cap lies in its
-/// triangle: there the volume has to be behind the surface. The bias moves it away from the eye by its change of
+/// Depth bias of volumes, away from the eye. At the caster's edge the side, and on its triangle the cap, have the depth
+/// of the surface except for rounding; the volume must lose the depth test there. The bias is the volume's change of
 /// depth over a 128th of a pixel, which is more than rasterisation moves corners.
 const DEEPER: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: -4, slope_scale: -1.0 / 128.0, clamp: 0.0 };
 
@@ -32,7 +32,8 @@ pub struct VolumePipelines {
 }
 
 impl VolumePipelines {
-    /// Creates pipelines from the module of the shadow volume pass; they cut volumes off beyond `far_depth`, if given.
+    /// Creates pipelines from the module of the shadow volume pass. If `far_depth` is given, they cut volumes off
+    /// beyond it.
     pub fn new(gpu: &Gpu, setup: &PassSetup, module: &wgpu::ShaderModule, far_depth: Option<f32>) -> Self {
         let layout = pipeline_layout(gpu, "shadow volume", &setup.groups());
         let both_windings = |cull_mode, depth_stencil: wgpu::DepthStencilState, far_depth: Option<f32>| {
@@ -78,7 +79,7 @@ fn face(depth_fail_op: wgpu::StencilOperation, pass_op: wgpu::StencilOperation) 
     wgpu::StencilFaceState { compare, fail_op, depth_fail_op, pass_op }
 }
 
-/// The depth test passes in front of the visible surface: depth is reversed.
+/// Compares with the depth of the visible surface. Depth is reversed, so the test passes in front of the surface.
 fn count_state(gpu: &Gpu, stencil: wgpu::StencilState) -> wgpu::DepthStencilState {
     against_depth(gpu, wgpu::CompareFunction::Greater, stencil, DEEPER)
 }
