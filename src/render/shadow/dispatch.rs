@@ -1,4 +1,4 @@
-//! Which passes draw which technique: the only place that chooses by technique.
+//! Chooses the passes of each technique. No other file chooses by technique.
 
 use super::light::pass_setup::PassSetup;
 use super::light::shadow_pass::ShadowPass;
@@ -35,7 +35,7 @@ pub fn passes_of(gpu: &Gpu, setup: &PassSetup, technique: ShadowTechnique) -> Te
     })
 }
 
-/// Returns the known reason why shadows are wrong with these settings from this view; `None` if none is known.
+/// Returns the known fault of the shadows with these settings from this view; `None` if none is known.
 #[must_use]
 pub fn known_fault(shadows: &ShadowScene, view: &View, settings: &ShadowSettings) -> Option<KnownFault> {
     let counting = match settings.technique {

@@ -1,5 +1,5 @@
-//! Up to four light samples, unshadowed or with their shadow maps, that the surface pass adds itself: neither depth nor
-//! direct light needs a pass of its own.
+//! Up to four light samples, unshadowed or with shadow maps, that the surface pass adds itself. Depth and direct light
+//! then need no passes of their own.
 //!
 //! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain is
 //! not measured.
@@ -19,13 +19,13 @@ use crate::gpu::Gpu;
 /// `MAX_LIGHTS` of shaders/surface/direct_few.wgsl.
 const MAX_LIGHTS: usize = 4;
 
-/// What the light samples are like. The surface pass has one pipeline for each, because these are constants of its
-/// shader: software drivers execute both sides of a branch.
+/// Properties of the light samples. They are constants of the shader, because software drivers execute both sides of a
+/// branch; so the surface pass has one pipeline for each combination.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct LightKinds {
     num_lights: usize,
     has_maps: bool,
-    /// [`LightUniform::kind`] of each, with [`HAS_CUBE`].
+    /// [`LightUniform::kind`] of each light, with [`HAS_CUBE`].
     of_lights: [u32; MAX_LIGHTS],
     pcf_radius: u32,
     has_normal_offset: bool,
@@ -48,7 +48,7 @@ impl LightKinds {
 
 /// Light samples and their maps, bound for the surface pass.
 pub struct FewLights {
-    /// What the samples are like.
+    /// Properties of the samples.
     pub kinds: LightKinds,
     /// Bind group 3.
     pub bindings: wgpu::BindGroup,
@@ -66,8 +66,9 @@ impl FewLightsPass {
         Self { maps: ShadowMapPass::new(gpu), layout: layout(gpu) }
     }
 
-    /// Binds the light samples of a picture, and draws their maps unless they are kept. Returns `None` if the surface
-    /// pass cannot add them: for other techniques, for more samples, and for a sum over several pictures.
+    /// Binds the light samples of a picture, and draws those of their maps that are not cached. Returns `None` if the
+    /// surface pass cannot add the samples: for other techniques, for more samples, and for a sum over several
+    /// pictures.
     pub fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,
@@ -98,7 +99,7 @@ impl FewLightsPass {
         };
         let mut lights = [LightUniform::zeroed(); MAX_LIGHTS];
         let mut projections = [MapUniform::zeroed(); MAX_LIGHTS];
-        // Every binding must be bound, also those of lights that are not there.
+        // Every binding must be bound, also those of the lights that are missing.
         let mut textures = [(); MAX_LIGHTS].map(|()| self.maps.no_map().clone());
         for (index, sample) in samples.iter().enumerate() {
             lights[index] = LightUniform::new(sample, frame);

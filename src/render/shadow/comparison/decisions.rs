@@ -1,4 +1,4 @@
-//! The decisions of a technique, read back for each pixel: is a light sample visible?
+//! Reads the decisions of a technique back: is a light sample visible from a pixel?
 
 use crate::gpu::readback::{f32_from_half, read_stencil, read_texture};
 use crate::gpu::{Gpu, GpuError};
@@ -13,16 +13,16 @@ use crate::render::shadow::shared::frame_context::FrameContext;
 pub struct Decisions {
     /// Pixels across and down.
     pub size: [u32; 2],
-    /// Decisions about each light sample.
+    /// Decisions about each light sample `[sample]`.
     pub samples: Vec<SampleDecisions>,
 }
 
 /// Decisions of a technique about one light sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SampleDecisions {
-    /// The sample is visible, `[pixel]`.
+    /// True if the light sample is visible from the pixel, `[pixel]`.
     pub lit: Vec<bool>,
-    /// The technique decides about this pixel, `[pixel]`; `None` if it decides about all pixels.
+    /// True if the technique decides about the pixel, `[pixel]`; `None` if it decides about all pixels.
     pub claimed: Option<Vec<bool>>,
 }
 
@@ -61,7 +61,8 @@ pub fn decisions(
     Ok(decisions)
 }
 
-/// Returns the stencil after the shadows of light sample `index`, a byte a pixel. `light` must draw one sample a pixel.
+/// Returns the stencil after the shadows of light sample `index`, one byte a pixel. `light` must draw one sample a
+/// pixel.
 ///
 /// # Errors
 /// Returns an error if the device was lost.
@@ -81,7 +82,7 @@ pub fn stencil(
     stencil
 }
 
-/// Returns the pixels in which at least half of the light sample is visible.
+/// Returns true for each pixel from which at least half of the light sample is visible.
 fn lit_pixels(gpu: &Gpu, targets: &LightTargets) -> Result<Vec<bool>, GpuError> {
     if targets.irradiance.format() == wgpu::TextureFormat::Rgba32Float {
         let bytes = read_texture(gpu, &targets.irradiance, 16)?;

@@ -1,13 +1,13 @@
 //! The difference of two techniques: in how many pixels they decide differently whether a light is visible.
 //!
-//! Edges of shadows move by less than a pixel between techniques, which is no fault. So only decisions that are more
-//! than one pixel away from an edge of the reference's shadow are compared.
+//! Techniques may place the edge of a shadow up to a pixel apart, which is no fault. So only decisions more than one
+//! pixel away from an edge of the reference's shadow are compared.
 
 use glam::Vec3;
 
 use super::decisions::{Decisions, SampleDecisions};
 
-/// The difference of a technique from a reference.
+/// The difference between a technique and a reference.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadowDifference {
     /// Pixels across and down.
@@ -16,12 +16,13 @@ pub struct ShadowDifference {
     pub share: f32,
     /// Number of light samples about which the techniques differ, `[pixel]`.
     pub count: Vec<u32>,
-    /// The light is visible here and hidden in the reference, `[pixel]`; meaningful only where `count` is not zero.
+    /// True if the light is visible here and hidden in the reference, `[pixel]`; meaningful only where `count` is not
+    /// zero.
     pub is_too_bright: Vec<bool>,
 }
 
 impl Decisions {
-    /// Returns the pixels with a neighbour whose decision differs.
+    /// Returns true for each pixel with a neighbour whose decision differs.
     fn edges(&self, lit: &[bool]) -> Vec<bool> {
         let [width, height] = self.size.map(|side| side as usize);
         let is_edge = |at: usize| {
@@ -59,7 +60,7 @@ pub fn shadow_difference(decisions: &Decisions, reference: &Decisions) -> Shadow
 }
 
 impl ShadowDifference {
-    /// Draws the difference over the shadows of the reference: grey is the share of visible lights, red is too much
+    /// Draws the difference over the shadows of the reference. Grey is the share of visible lights; red marks too much
     /// light, blue too little.
     #[must_use]
     pub fn picture(&self, reference: &Decisions) -> Vec<Vec3> {

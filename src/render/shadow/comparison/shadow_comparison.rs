@@ -12,13 +12,13 @@ use crate::render::shadow::shared::scene::ShadowScene;
 use crate::render::shadow::technique::ShadowTechnique;
 use crate::render::{RenderSettings, View};
 
-/// Compares shadow techniques. Its passes are created once.
+/// Compares shadow techniques. Its passes are created once and used for every comparison.
 pub struct ShadowComparison {
     layout: wgpu::BindGroupLayout,
     light: RealTimeLight,
 }
 
-/// The picture that techniques are compared in.
+/// The picture in which techniques are compared.
 #[derive(Clone, Copy)]
 pub struct ComparedScene<'a> {
     /// The scene on the device.
@@ -71,7 +71,7 @@ impl ShadowComparison {
         Ok(Decisions { size: scene.size, samples })
     }
 
-    /// Returns the stencil after the shadows of light sample `index`, a byte a pixel.
+    /// Returns the stencil after the shadows of light sample `index`, one byte a pixel.
     ///
     /// # Errors
     /// Returns an error if the device was lost.

@@ -1,4 +1,5 @@
-//! Cut-out shadow pass: marks visible points between which and the light a caster with holes is solid.
+//! Cut-out shadow pass: marks visible points whose line to the light is blocked by a solid place of a caster with
+//! holes.
 
 use super::cutouts::{SceneCutouts, cutouts_layout};
 use crate::gpu::Gpu;
@@ -10,7 +11,7 @@ use crate::render::shadow::shared::pipeline::{PipelineRecipe, against_depth, cul
 use crate::render::shadow::shared::solid_surfaces::SolidPipelines;
 use crate::render::shadow::shared::stencil::{SHADOW_BITS, both_faces, on_pass};
 
-/// Cut-out shadows.
+/// Shader of the cut-out shadow pass.
 pub const CUTOUT_SHADOW: Shader = shader!(
     "cut-out shadow",
     "shared/frame.wgsl",

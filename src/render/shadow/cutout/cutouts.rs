@@ -1,4 +1,4 @@
-//! Casters with holes on the device, each with a tree of boxes.
+//! Uploads casters with holes, each material with a tree of bounding boxes.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3, Vec3A, Vec4};
@@ -17,15 +17,15 @@ use crate::scene::{AlphaMode, Scene};
 const SLACK: f32 = 1e-5;
 /// [`CutoutNode::triangle`] of an inner node.
 const NO_TRIANGLE: u32 = u32::MAX;
-/// Least alpha of a surface that blends and throws a shadow, the same as for rays.
+/// Smallest alpha of a blending surface that throws a shadow; the same as for rays.
 const HALF_OPAQUE: f32 = 0.5;
 
-/// `CutoutCorner` of shaders/shadow/cutout/cutout_shadow.wgsl: a corner with all that its opacity depends on.
+/// `CutoutCorner` of shaders/shadow/cutout/cutout_shadow.wgsl: a corner with everything that its opacity depends on.
 #[repr(C)]
 #[derive(Clone, Copy, Pod, Zeroable)]
 struct CutoutCorner {
     position: Vec3,
-    /// Least alpha that is solid.
+    /// Smallest alpha that is solid.
     solid_alpha: f32,
     uv: [Vec2; 2],
     colour: Vec4,
@@ -47,7 +47,7 @@ struct CutoutNode {
 pub struct Cutouts {
     /// Their material.
     pub material: MaterialId,
-    /// Bind group 3: corners, and the tree over them.
+    /// Bind group 3: the corners, and the tree over their triangles.
     pub triangles: wgpu::BindGroup,
 }
 
@@ -57,7 +57,7 @@ pub struct SceneCutouts(pub Vec<Cutouts>);
 impl SceneData for SceneCutouts {}
 
 impl SceneCutouts {
-    /// Uploads them.
+    /// Uploads the casters of a scene that are not opaque.
     pub fn new(gpu: &Gpu, scene: &Scene) -> Self {
         let has_holes = |material: &MaterialId| scene.materials[material.index()].alpha_mode != AlphaMode::Opaque;
         let materials = (0..scene.materials.len()).map(MaterialId::new).filter(has_holes);

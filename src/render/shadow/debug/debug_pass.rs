@@ -19,7 +19,7 @@ pub struct DebugPass {
     maps: ShadowMapPass,
     map_faces: MapFaces,
     overlay: OverlayPass,
-    /// The last marks, and what they were made from.
+    /// The last marks, and the key that they were made from.
     marks: Option<(MarksKey, Overlay)>,
 }
 
@@ -37,13 +37,13 @@ impl DebugPass {
         }
     }
 
-    /// Drops what is kept of the last scene.
+    /// Drops the data that is cached for the last scene.
     pub fn clear_scene(&mut self) {
         self.light.clear_scene();
         self.marks = None;
     }
 
-    /// Draws over the picture in `target`.
+    /// Draws the debug view over the picture in `target`.
     pub fn draw(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -69,7 +69,7 @@ impl DebugPass {
         }
     }
 
-    /// Draws the counts of the technique itself if it counts in the stencil, else those of depth-fail.
+    /// Draws the stencil counts of the technique, or those of depth-fail if the technique does not use the stencil.
     fn draw_stencil_counts(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,

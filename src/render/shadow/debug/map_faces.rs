@@ -31,7 +31,7 @@ impl MapFaces {
         Self { perspective: shows(1.0), orthographic: shows(0.0) }
     }
 
-    /// Draws a map with so many faces.
+    /// Draws the `num_faces` faces of a map.
     pub fn draw(
         &self,
         encoder: &mut wgpu::CommandEncoder,

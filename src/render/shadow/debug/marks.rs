@@ -17,11 +17,11 @@ use crate::scene::Scene;
 
 const EDGE: [u8; 4] = [255, 226, 90, 255];
 const SIDE: [u8; 4] = [255, 120, 60, 26];
-/// Colours of the receivers, in turn.
+/// Colours of the receivers, used in turn.
 const RECEIVERS: [[u8; 3]; 6] =
     [[90, 190, 255], [255, 170, 70], [130, 220, 110], [235, 120, 220], [245, 225, 90], [110, 235, 215]];
 const RECEIVER_ALPHA: u8 = 70;
-/// Length of the sides that are drawn, in diagonals of the scene; volumes are infinite.
+/// Length of the drawn sides, in diagonals of the scene. The sides of a volume itself are infinite.
 const REACH: f32 = 2.0;
 
 /// What the marks of a view depend on.
@@ -49,7 +49,7 @@ impl MarksKey {
 }
 
 impl Marks {
-    /// Returns the marks of a view; none for views that colour pixels.
+    /// Returns the marks of a view. Views that colour pixels have no marks.
     pub fn new(shadows: &ShadowScene, key: &MarksKey) -> Self {
         let mut marks = Self::default();
         match key.view {
@@ -91,7 +91,7 @@ impl Marks {
                 edges.entry((key(p).min(key(q)), key(p).max(key(q)))).or_insert((0, [p, q])).0 += 1;
             }
         }
-        // The outline of a receiver is the edges of one triangle only.
+        // The outline of a receiver consists of the edges that belong to one triangle only.
         let outline = edges.into_values().filter(|(uses, _)| *uses == 1).flat_map(|(_, ends)| ends);
         self.lines.extend(outline.map(|corner| mark(corner, [r, g, b, 255])));
     }

@@ -1,4 +1,4 @@
-//! Debug views: what a shadow technique works with, drawn over the finished picture.
+//! Debug views: the data of a shadow technique, drawn over the finished picture.
 
 mod debug_pass;
 mod map_faces;

@@ -13,7 +13,7 @@ const STENCIL_COUNTS: Shader = shader!(
     "display/false_colour.wgsl",
     "shadow/debug/stencil_counts.wgsl"
 );
-/// Higher counts have the colour of this one, as in shaders/shadow/debug/stencil_counts.wgsl.
+/// Largest count with a colour of its own, as in shaders/shadow/debug/stencil_counts.wgsl.
 const MOST: u32 = 8;
 
 /// Returns the colour of a positive count, sRGB.
@@ -49,7 +49,7 @@ impl StencilCounts {
         Self { all_bits: counts(255.0), shadow_bits: counts(f64::from(SHADOW_BITS)), layout }
     }
 
-    /// Draws the counts in some bits of `stencil`.
+    /// Draws the counts in `counted_bits` of `stencil`: `SHADOW_BITS` or all bits.
     pub fn draw(
         &self,
         gpu: &Gpu,

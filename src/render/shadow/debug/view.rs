@@ -1,9 +1,9 @@
-//! The debug views, in one table that feeds the command line and the panels.
+//! The debug views, in one table that the command line and the panels use.
 
-/// What is shown of a technique.
+/// The data of a technique that a debug view shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DebugView {
-    /// The stencil before light is added: in how many volumes, or under how many planar shadows, a point is.
+    /// The stencil before light is added: the number of volumes, or of planar shadows, that a point lies in.
     StencilCounts,
     /// Sides of the shadow volumes as translucent hulls.
     Volumes,
@@ -80,7 +80,7 @@ impl DebugView {
 /// A debug view of one light sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShadowDebug {
-    /// What is shown.
+    /// The data that is shown.
     pub view: DebugView,
     /// Index of the light sample; an index beyond the last sample shows the last.
     pub light: usize,

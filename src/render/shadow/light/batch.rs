@@ -1,18 +1,20 @@
-//! Batches of light samples: while nothing moves, pictures with a few samples each add up to one picture with many.
+//! Batches of light samples. While nothing moves, each picture draws a few samples, and the sum approaches a picture
+//! with many.
 
 use super::sample::LightSample;
 
-/// Points on each lamp in all batches together.
+/// Number of samples per lamp in all batches together.
 pub const MOST_POINTS: u32 = 256;
 
-/// The light samples that one picture adds to the sum of the pictures before it.
+/// The light samples that one picture adds to the sum of the previous pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SampleBatch {
-    /// Number of the batch, from 0 on.
+    /// Number of the batch, from 0.
     pub number: u32,
-    /// First light sample of the batch that is added now; 0 in batch 0 begins a new sum.
+    /// First light sample of the batch that this picture adds. In batch 0, sample 0 begins a new sum.
     pub first: usize,
-    /// Number of light samples that are added now. A picture is shown when the last one of the batch has been added.
+    /// Number of light samples that this picture adds. A picture is shown when the last sample of the batch has been
+    /// added.
     pub count: usize,
 }
 
@@ -23,23 +25,23 @@ impl SampleBatch {
         Self { number, first: 0, count: usize::MAX }
     }
 
-    /// Whether this begins a new sum.
+    /// Returns true if this begins a new sum.
     #[must_use]
     pub fn is_first(self) -> bool {
         self.number == 0 && self.first == 0
     }
 }
 
-/// Returns how many batches of `per_lamp` points, rounded up to a power of two, make up [`MOST_POINTS`].
+/// Returns the number of batches of `per_lamp` samples (rounded up to a power of two) that make up [`MOST_POINTS`].
 #[must_use]
 pub fn num_batches(per_lamp: u32) -> u32 {
     MOST_POINTS / per_lamp.next_power_of_two().clamp(1, MOST_POINTS)
 }
 
-/// Selects the samples of one batch from `all` samples of a scene, [`MOST_POINTS`] a lamp.
+/// Selects the samples of one batch from `all` samples of a scene, [`MOST_POINTS`] per lamp.
 ///
-/// They are as strong as all samples together, so that the mean over all batches is the light of all samples. Batches
-/// come in van der Corput order, so that the points of the first few are spread evenly over a lamp.
+/// Each batch is as strong as all samples together, so the mean over all batches is the light of all samples. Batches
+/// come in van der Corput order, which spreads the samples of the first few evenly over a lamp.
 #[must_use]
 pub fn batch_of_samples(all: &[LightSample], per_lamp: u32, number: u32) -> Vec<LightSample> {
     let count = num_batches(per_lamp);

@@ -1,4 +1,4 @@
-//! Direct light pass: adds the irradiance of one light sample wherever the stencil says that it is not in shadow.
+//! Direct light pass: adds the irradiance of one light sample wherever the stencil marks no shadow.
 
 use super::sample_context::SampleContext;
 use super::targets::{LightTargets, irradiance_format};
@@ -9,7 +9,7 @@ use crate::render::shadow::shared::pipeline::{PipelineRecipe, against_depth, cul
 use crate::render::shadow::shared::solid_surfaces::SolidPipelines;
 use crate::render::shadow::shared::stencil::{both_faces, on_pass};
 
-/// Direct light where the stencil test passes.
+/// Shader that adds direct light where the stencil test passes.
 pub const DIRECT_LIGHT: Shader = shader!(
     "direct light",
     "shared/frame.wgsl",
@@ -21,7 +21,7 @@ pub const DIRECT_LIGHT: Shader = shader!(
     "shadow/light/direct_light.wgsl"
 );
 
-/// Which stencil values receive light, and whether it is added or subtracted.
+/// Selects the stencil values that receive light, and whether it is added or subtracted.
 #[derive(Clone, Copy, Debug)]
 pub struct LightBlend {
     /// Bits of the stencil that are compared.
@@ -30,7 +30,7 @@ pub struct LightBlend {
     pub compare: wgpu::CompareFunction,
     /// Reference value of the test.
     pub reference: u32,
-    /// `Add`, or `ReverseSubtract` to take light away again.
+    /// `Add`, or `ReverseSubtract` to subtract light.
     pub operation: wgpu::BlendOperation,
 }
 
@@ -50,7 +50,7 @@ pub struct DirectLightPass {
 
 impl DirectLightPass {
     /// Creates pipelines for targets with `samples` samples a pixel. `shader` is a module with a function `visibility`,
-    /// and the values of its constants.
+    /// and the values of the module's constants.
     pub fn new(
         gpu: &Gpu,
         groups: &[Option<&wgpu::BindGroupLayout>],
@@ -60,7 +60,7 @@ impl DirectLightPass {
     ) -> Self {
         let module = shader.module(gpu);
         let layout = pipeline_layout(gpu, "direct light", groups);
-        // A lit point is marked too, so that of two surfaces in the same place only one is lit.
+        // A lit point is marked too, so that only one of two coincident surfaces is lit.
         let lit = on_pass(blend.compare, wgpu::StencilOperation::IncrementClamp);
         let stencil = both_faces(lit, blend.read_mask, !0);
         let target = wgpu::ColorTargetState {
@@ -94,7 +94,7 @@ impl DirectLightPass {
     }
 }
 
-/// Target + source, or target - source.
+/// Returns the blend state for target + source, or for target - source.
 fn sum(operation: wgpu::BlendOperation) -> wgpu::BlendState {
     let (src_factor, dst_factor) = (wgpu::BlendFactor::One, wgpu::BlendFactor::One);
     let component = wgpu::BlendComponent { src_factor, dst_factor, operation };

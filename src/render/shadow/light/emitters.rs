@@ -1,4 +1,4 @@
-//! Emissive surfaces as lamps: which triangles are one lamp, and points on them.
+//! Emissive surfaces as lamps: groups triangles into lamps and places samples on them.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -10,20 +10,20 @@ use crate::base::sampling::triangle_from_square;
 use crate::base::triangle::interpolate;
 use crate::scene::{Light, Scene, area_of, normal_of};
 
-/// Step of the second coordinate from sample to sample: multiples of the golden ratio spread any number of points
-/// evenly.
+/// Step of the second coordinate from sample to sample, modulo 1. Multiples of the golden ratio are spread evenly for
+/// any number of samples.
 pub const GOLDEN: f32 = 0.618_034;
 /// Size of the cells that lamps are split into, as a share of the scene's extent; the same as in the bake.
 const CELL_SHARE: f32 = 0.1;
-/// Height of a sample above its surface, as a share of the scene's extent, so that the surface does not shadow itself.
+/// Height of a sample above its surface, as a share of the scene's extent. It keeps the surface from shadowing itself.
 const HEIGHT: f32 = 2e-5;
 
-/// An emissive surface: triangles of one instance, material and side whose middle lies in one cell of space.
+/// An emissive surface: all connected pieces of one instance, material and side whose middles lie in one cell of space.
 pub struct Emitter {
     group: GroupId,
     is_back: bool,
     triangles: Vec<TriangleId>,
-    /// Running sum of their areas, square metres.
+    /// Running sum of the areas of the triangles, square metres.
     cumulative_area: Vec<f32>,
     /// Height of samples above the surface, metres.
     height: f32,
@@ -67,7 +67,7 @@ fn pieces(scene: &Scene) -> Vec<Vec<TriangleId>> {
             corners.iter().filter_map(|corner| piece_of_corner.get(corner).copied()).collect();
         touched.sort_unstable();
         touched.dedup();
-        // The triangle connects all pieces that it touches: they become the first of them.
+        // The triangle connects all pieces that it touches: they are merged into the first of them.
         let home = touched.first().copied().unwrap_or_else(|| {
             pieces.push(Vec::new());
             pieces.len() - 1
@@ -95,7 +95,7 @@ impl Emitter {
         self.cumulative_area.push(before + area);
     }
 
-    /// Adds `count` samples of lamp `lamp`, one in each of `count` strata of equal area.
+    /// Adds `count` samples of lamp `lamp`, one for each of `count` strata of equal area.
     pub fn add_samples(&self, scene: &Scene, count: u32, lamp: usize, samples: &mut Vec<LightSample>) {
         let area = self.cumulative_area.last().copied().unwrap_or(0.0);
         for index in 0..count {
@@ -130,7 +130,7 @@ impl Emitter {
     }
 }
 
-/// Returns the emitted radiance of a triangle at a point; holes emit none.
+/// Returns the radiance that a triangle emits at a point; holes emit none.
 fn emission(scene: &Scene, id: TriangleId, weights: Vec3) -> Vec3 {
     let point = scene.surface_at(id, weights);
     point.emission * point.opacity

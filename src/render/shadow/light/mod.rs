@@ -1,8 +1,8 @@
-//! Direct light of one light sample after the other, whatever finds its shadows.
+//! Direct light of one light sample after the other, whatever technique finds its shadows.
 //!
-//! A lamp becomes [`samples`], points and directions that each throw one hard shadow. [`direct_light`] adds the
-//! irradiance of one sample to the [`targets`] of a picture; a technique implements [`shadow_pass::ShadowPass`] to
-//! say where.
+//! A lamp becomes [`samples`]: points and directions that each throw one hard shadow. [`direct_light`] adds the
+//! irradiance of one sample to the [`targets`] of a picture. A technique implements [`shadow_pass::ShadowPass`] to mark
+//! where the sample is hidden.
 
 pub mod batch;
 pub mod direct_light;

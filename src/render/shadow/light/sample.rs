@@ -4,17 +4,18 @@ use glam::{Vec3, Vec4};
 
 use crate::scene::{Light, LightKind};
 
-/// `GRAZING_COSINE` of shaders/shadow/light/light_sample.wgsl: light at a lower cosine is taken for none.
+/// `GRAZING_COSINE` of shaders/shadow/light/light_sample.wgsl: light at a lower cosine counts as zero.
 pub const GRAZING_COSINE: f32 = 1e-4;
 
 /// One point or direction from which light comes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightSample {
-    /// Position and intensity; a sample of a surface is a point light with the intensity along the normal.
+    /// Position and intensity. A sample of a surface is a point light; its intensity is that along the normal.
     pub light: Light,
-    /// Normal of the emissive surface that it is a sample of: it emits on that side only, in proportion to the cosine.
+    /// Normal of the emissive surface that this is a sample of, if any. It emits on that side only, in proportion to
+    /// the cosine.
     pub surface_normal: Option<Vec3>,
-    /// Index of the lamp that it belongs to: punctual lights first, then emissive surfaces.
+    /// Index of the lamp of this sample: punctual lights come first, then emissive surfaces.
     pub lamp: usize,
 }
 

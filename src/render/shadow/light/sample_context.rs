@@ -1,4 +1,4 @@
-//! What a pass for one light sample is given.
+//! Input of a pass for one light sample.
 
 use super::sample::LightSample;
 use super::uniforms::LightUniforms;
@@ -14,7 +14,7 @@ pub struct SampleContext<'a> {
     pub settings: &'a ShadowSettings,
     /// All light samples of the picture on the device.
     pub lights: &'a LightUniforms,
-    /// Number of this sample.
+    /// Index of this sample in `lights`.
     pub index: usize,
     /// The sample itself.
     pub sample: &'a LightSample,

@@ -1,9 +1,8 @@
 //! Light samples: the lights of a scene as points and directions, each with one hard shadow.
 //!
-//! A punctual light is one sample, or many on a small sphere round its position. An emissive surface of radiance L
-//! and area A becomes N points, stratified over its area ([`emitters`](super::emitters)). Each has the intensity L A
-//! / N times the cosine to the surface's normal, so that their sum tends to the irradiance that the bake computes in
-//! closed form:
+//! A punctual light is one sample, or many on a small sphere round its position. An emissive surface of radiance L and
+//! area A becomes N points, stratified over its area ([`emitters`](super::emitters)). The intensity of each is L A / N
+//! times the cosine to the surface's normal. Their sum tends to the irradiance that the bake computes in closed form:
 //!
 //! ```text
 //! E = sum over N samples of  L (A / N) cos(emitted) cos(received) / r^2
@@ -18,8 +17,8 @@ use super::sample::LightSample;
 use crate::render::shadow::shared::scene::{SceneData, ShadowScene};
 use crate::scene::{Light, LightKind, Scene};
 
-/// Returns the light samples of a scene: `per_lamp` for each emissive surface. A punctual light has as many too if
-/// `radius` (metres) is more than 0, else one; a directional light always has one.
+/// Returns the light samples of a scene. An emissive surface has `per_lamp` samples, and so has a punctual light if
+/// `radius` (metres) is more than 0; otherwise the punctual light has one. A directional light always has one.
 #[must_use]
 pub fn light_samples(scene: &Scene, per_lamp: u32, radius: f32) -> Vec<LightSample> {
     let mut samples = Vec::new();
@@ -33,7 +32,8 @@ pub fn light_samples(scene: &Scene, per_lamp: u32, radius: f32) -> Vec<LightSamp
     samples
 }
 
-/// Adds `count` equal points on a sphere round a punctual light (a Fibonacci lattice), or one point in its middle.
+/// Adds `count` equally strong points on a sphere round a punctual light (a Fibonacci lattice), or one point in its
+/// middle.
 fn add_punctual(light: &Light, lamp: usize, count: u32, radius: f32, samples: &mut Vec<LightSample>) {
     let (LightKind::Point { position } | LightKind::Spot { position, .. }) = light.kind else {
         samples.push(LightSample { light: light.clone(), surface_normal: None, lamp });
@@ -52,7 +52,7 @@ fn add_punctual(light: &Light, lamp: usize, count: u32, radius: f32, samples: &m
     }
 }
 
-/// The light samples that were last computed for a scene, kept because every picture needs them.
+/// Cache of the light samples that were last computed for a scene, because every picture needs them.
 #[derive(Default)]
 struct KeptSamples(Mutex<Option<Computed>>);
 
@@ -64,7 +64,7 @@ struct Computed {
 
 impl SceneData for KeptSamples {}
 
-/// Returns [`light_samples`] of a scene; computes them only if they differ from those of the last call.
+/// Returns [`light_samples`] of a scene. They are computed only if the arguments differ from those of the last call.
 pub fn samples_of(shadows: &ShadowScene, per_lamp: u32, radius: f32) -> Arc<[LightSample]> {
     let kept = shadows.kept(KeptSamples::default);
     let mut last = kept.0.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,7 +1,7 @@
-//! Light space: coordinates in which a light is a camera, with axes to its right, upwards, and backwards.
+//! Light space: the space of a camera at the light, with axes to its right, upwards, and backwards.
 //!
-//! In it the cone of a spot light, the cosine at an emissive surface and the position in a shadow map need one or two
-//! coordinates each.
+//! The cone of a spot light, the cosine at an emissive surface and the position in a shadow map then depend on one or
+//! two coordinates only.
 
 use glam::{Mat3, Mat4};
 
@@ -9,7 +9,8 @@ use super::sample::LightSample;
 use crate::base::sampling::tangent_frame;
 use crate::scene::LightKind;
 
-/// Returns the axes of light space in the world: right, up and back. For a point light these are the world's axes.
+/// Returns the axes of light space in world space: right, up and back. For a point light they are the axes of the
+/// world.
 pub fn axes(sample: &LightSample) -> Mat3 {
     let ahead = match (sample.surface_normal, sample.light.kind) {
         (Some(normal), _) => normal,
@@ -20,8 +21,8 @@ pub fn axes(sample: &LightSample) -> Mat3 {
     Mat3::from_cols(right, up, -ahead)
 }
 
-/// Returns the transform from the world to light space, metres from the light; for a directional light, from the
-/// origin.
+/// Returns the transform from world space to light space, whose origin is the light; for a directional light it is the
+/// origin of the world.
 pub fn light_from_world(sample: &LightSample) -> Mat4 {
     let position = sample.position();
     Mat4::from_mat3(axes(sample).transpose()) * Mat4::from_translation(-position.w * position.truncate())

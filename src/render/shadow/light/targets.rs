@@ -1,9 +1,10 @@
-//! Targets of direct light: depth and stencil of the visible surfaces, and the sum of the irradiance on them.
+//! Targets of direct light: depth and stencil of the visible surfaces, and the sum of their irradiance.
 
 use crate::gpu::Gpu;
 use crate::render::shadow::shared::pipeline::depth_stencil_format;
 
-/// Returns 32-bit floats if the device can blend them, else 16-bit floats, which round sums of hundreds of samples.
+/// Returns 32-bit floats if the device can blend them, else 16-bit floats. Sums of hundreds of samples lose precision
+/// in the latter.
 pub fn irradiance_format(gpu: &Gpu, samples: u32) -> wgpu::TextureFormat {
     use wgpu::TextureFormatFeatureFlags as Flags;
     let needed = if samples > 1 { Flags::BLENDABLE | Flags::MULTISAMPLE_X4 } else { Flags::BLENDABLE };
@@ -14,7 +15,7 @@ pub fn irradiance_format(gpu: &Gpu, samples: u32) -> wgpu::TextureFormat {
     if adds_up { wgpu::TextureFormat::Rgba32Float } else { wgpu::TextureFormat::Rgba16Float }
 }
 
-/// Targets that direct light is added up in.
+/// Targets in which direct light is added up.
 pub struct LightTargets {
     /// Pixels across and down.
     pub size: [u32; 2],
@@ -22,7 +23,7 @@ pub struct LightTargets {
     pub depth_stencil: wgpu::TextureView,
     /// Texture of `depth_stencil`.
     pub depth_stencil_texture: wgpu::Texture,
-    /// Irradiance times pre-exposure; the fourth channel counts the light samples that are visible.
+    /// Irradiance times pre-exposure. The fourth channel counts the visible light samples.
     pub irradiance: wgpu::Texture,
     /// View of `irradiance`.
     pub irradiance_view: wgpu::TextureView,

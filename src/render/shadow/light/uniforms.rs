@@ -1,4 +1,4 @@
-//! The light samples of one picture on the device: one uniform each, in one buffer.
+//! Uploads the light samples of one picture: one uniform each, in one buffer.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
@@ -13,9 +13,9 @@ use crate::scene::LightKind;
 
 /// Bytes from one sample to the next: the largest alignment that a device may require of a dynamic offset.
 const STRIDE: u32 = 256;
-/// Least `cos inner - cos outer` of a spot's cone, as in `scene::light`.
+/// Smallest `cos inner - cos outer` of a spot's cone, as in `scene::light`.
 const NARROWEST_RIM: f32 = 1e-3;
-/// Distance of a far light from the middle of a scene, in sizes of the scene.
+/// Distance from the middle of a scene beyond which a light is `IS_FAR`, in diagonals of the scene.
 const FAR: f32 = 4.0;
 
 // Bits of `LightUniform::kind`, as in shaders/shadow/light/light_sample.wgsl and shaders/shadow/map/pcf.wgsl.
@@ -24,7 +24,7 @@ const IS_SURFACE: u32 = 2;
 const HAS_CONE: u32 = 4;
 const HAS_RANGE: u32 = 8;
 const IS_FAR: u32 = 16;
-/// The shadow map of the light has six faces.
+/// Set if the shadow map of the light has six faces.
 pub const HAS_CUBE: u32 = 32;
 
 /// `LightSample` of shaders/shadow/light/light_sample.wgsl.
@@ -45,7 +45,7 @@ pub struct LightUniform {
 }
 
 impl LightUniform {
-    /// Converts a sample for a picture: dimmed with its light group, and scaled by pre-exposure.
+    /// Converts a sample for a picture: dims it with its light group and scales it by pre-exposure.
     pub fn new(sample: &LightSample, frame: FrameContext<'_>) -> Self {
         let (cone_scale, cone_offset) = match sample.light.kind {
             LightKind::Spot { inner_angle, outer_angle, .. } => {
@@ -74,7 +74,7 @@ impl LightUniform {
         }
     }
 
-    /// Returns the bits that describe the light: `IS_PARALLEL` and so on.
+    /// Returns the bits that describe the light, such as `IS_PARALLEL`.
     pub fn kind(&self) -> u32 {
         self.kind
     }

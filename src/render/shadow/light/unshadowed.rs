@@ -7,7 +7,7 @@ use super::shadow_pass::ShadowPass;
 use super::targets::LightTargets;
 use crate::gpu::Gpu;
 
-/// Light that passes through everything.
+/// Adds light without shadows: it passes through everything.
 pub struct UnshadowedLight {
     light: DirectLightPass,
 }

@@ -7,8 +7,8 @@ use crate::render::shadow::shared::pipeline::{PipelineRecipe, nearest};
 
 /// Format of all shadow maps.
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
-/// Format of block planes: depth at texel (0, 0), change per texel to the right and downwards, and 1 if there is a
-/// plane.
+/// Format of block planes: depth at texel (0, 0), change of depth per texel to the right and downwards, and 1 if the
+/// block has a plane.
 pub const BLOCK_PLANES_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba32Float;
 
 /// Texels across a block: `BLOCK` of shaders/shadow/map/projection.wgsl.
@@ -19,13 +19,13 @@ pub fn num_blocks(resolution: u32) -> u32 {
     resolution.div_ceil(BLOCK)
 }
 
-/// Creates a uniform buffer.
+/// Creates a uniform buffer with these contents.
 pub fn uniform_buffer(gpu: &Gpu, contents: &[u8]) -> wgpu::Buffer {
     let usage = wgpu::BufferUsages::UNIFORM;
     gpu.device.create_buffer_init(&wgpu::util::BufferInitDescriptor { label: Some("shadow map"), contents, usage })
 }
 
-/// Returns an entry of a layout.
+/// Returns an entry of a bind group layout.
 pub fn entry(binding: u32, visibility: wgpu::ShaderStages, ty: wgpu::BindingType) -> wgpu::BindGroupLayoutEntry {
     wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None }
 }
@@ -76,7 +76,8 @@ pub fn read_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     })
 }
 
-/// Creates the pipeline for opaque casters (`None`), or for those with an `ALPHA_MODE` of shaders/shared/material.wgsl.
+/// Creates the pipeline for opaque casters (`None`), or for casters with the given `ALPHA_MODE` of
+/// shaders/shared/material.wgsl.
 pub fn caster_pipeline(
     gpu: &Gpu,
     layout: &wgpu::PipelineLayout,

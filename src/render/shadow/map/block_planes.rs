@@ -1,11 +1,11 @@
-//! Block planes of a shadow map: for each block of 8 x 8 texels the plane that all of its texels show, if they show
+//! Block planes of a shadow map: for each block of 8 x 8 texels the plane on which all of its texels lie, if there is
 //! one.
 //!
 //! This is a min/max shadow map (Dmitriev and Uralsky 2007, "Soft shadows using hierarchical min-max shadow maps") of
-//! one level that stores a plane in place of the bounds. A block includes the texels round it that a filter can
-//! touch, so a lookup in a block with a plane is one comparison; only lookups at the edges of casters gather texels.
-//! A map is kept over many pictures and its planes are computed once. They are a 64th as many texels, which caches
-//! hold: cornell with one map takes a third less time on a software driver.
+//! one level that stores a plane in place of the bounds. A block includes the texels round it that a filter can touch.
+//! A lookup in a block with a plane is one comparison, and only lookups at the edges of casters gather texels. The
+//! planes are computed once for a map, which serves many pictures. Their texture has a 64th of the map's texels and
+//! fits into caches: cornell with one map takes a third less time on a software driver.
 //!
 //! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain is
 //! not measured.

@@ -1,4 +1,4 @@
-//! Shadow maps that are kept from picture to picture: a map is valid while neither the light nor the casters move.
+//! Cache of shadow maps: a map is valid while neither the light nor the casters move.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -10,26 +10,26 @@ use crate::gpu::Gpu;
 use crate::render::scene::SceneBuffers;
 use crate::render::shadow::shared::scene::SceneData;
 
-/// Most texels that are kept: 256 MiB, sixteen faces of the default resolution, and a sixteenth of that for block
-/// planes.
+/// Largest number of cached texels: 256 MiB or sixteen faces of the default resolution, and a sixteenth of that for
+/// block planes.
 const MAX_TEXELS: usize = 1 << 26;
 
-/// A map that no picture has used for so long is dropped.
+/// A map that no picture has used for this time is dropped.
 const LONGEST_UNUSED: Duration = Duration::from_secs(5);
 
 /// A map on the device.
 pub struct Map {
     content: MapContent,
     last_used: Instant,
-    /// One view a face, to draw to.
+    /// A view of each face, to draw to.
     pub faces: Vec<wgpu::TextureView>,
-    /// One view a face of the block planes, to draw to.
+    /// A view of the block planes of each face, to draw to.
     pub block_plane_faces: Vec<wgpu::TextureView>,
-    /// All faces, to read.
+    /// All faces, to be read by shaders.
     pub textures: MapTextures,
 }
 
-/// All faces of a map, to read.
+/// All faces of a map, to be read by shaders.
 #[derive(Clone)]
 pub struct MapTextures {
     /// Depth of each texel.
@@ -38,7 +38,7 @@ pub struct MapTextures {
     pub block_planes: wgpu::TextureView,
 }
 
-/// What a map shows: triangles, projections and resolution. Maps with equal content are interchangeable.
+/// Content of a map: triangles, projections and resolution. Maps with equal content are interchangeable.
 #[derive(Clone, PartialEq)]
 pub struct MapContent {
     vertices: wgpu::Buffer,
@@ -48,7 +48,7 @@ pub struct MapContent {
 }
 
 impl MapContent {
-    /// The casters of a scene, projected on to faces that are `resolution` texels wide.
+    /// Returns the content for a scene, projected on to faces that are `resolution` texels wide.
     pub fn new(scene: &SceneBuffers, projection_from_world: &[Mat4], resolution: u32) -> Self {
         Self {
             vertices: scene.vertices.clone(),
@@ -89,8 +89,8 @@ impl SceneData for MapCache {
 impl Maps {
     /// Returns the map with this content, and whether it has yet to be drawn.
     ///
-    /// If there is no room, the map that was used *last* is dropped: each picture uses the maps of all lights in
-    /// turn, so the one that was used last will be needed again last (Belady's rule for a cycle).
+    /// If there is no room, the map that was used *last* is dropped. Each picture uses the maps of all lights in the
+    /// same order, so that map will be needed again last (Belady's rule for a cycle).
     pub fn get(&mut self, gpu: &Gpu, content: MapContent) -> (&Map, bool) {
         let found = self.maps.iter().position(|map| map.content == content);
         let map = match found {
@@ -127,7 +127,7 @@ impl Map {
 }
 
 impl MapTextures {
-    /// Textures of one texel, to bind where a shader needs a map and does not read it.
+    /// Creates textures of one texel, for bindings that a shader declares and does not read.
     pub fn none(gpu: &Gpu) -> Self {
         let [depth, block_planes] =
             [DEPTH_FORMAT, BLOCK_PLANES_FORMAT].map(|format| all_faces(&texture(gpu, format, 1, 1)));

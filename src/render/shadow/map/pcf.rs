@@ -1,6 +1,6 @@
 //! Percentage-closer filtering: direct light with its shadow looked up in a map.
 //!
-//! The share of a light that reaches a point is the mean of depth comparisons over the texels round it, not the
+//! The fraction of a light that reaches a point is the mean of depth comparisons with the texels round it, not the
 //! comparison with a mean depth (Reeves, Salesin and Cook 1987, "Rendering antialiased shadows with depth maps"). The
 //! loop is in shaders/shadow/map/pcf.wgsl.
 
@@ -11,7 +11,7 @@ use crate::gpu::shader::{Shader, shader};
 use crate::render::shadow::light::direct_light::{DirectLightPass, LIGHT_UNSHADOWED};
 use crate::render::shadow::light::pass_setup::PassSetup;
 
-/// Direct light where the shadow map shows no caster before the point.
+/// Shader that adds direct light where the shadow map has no caster in front of the point.
 pub const DIRECT_LIGHT_PCF: Shader = shader!(
     "direct light, shadow map",
     "shared/frame.wgsl",
@@ -25,16 +25,16 @@ pub const DIRECT_LIGHT_PCF: Shader = shader!(
     "shadow/light/direct_light.wgsl"
 );
 
-/// What a map is like. These are constants of the shader, because software drivers execute both sides of a branch.
+/// Properties of a map. They are constants of the shader, because software drivers execute both sides of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct MapKind {
-    /// Six faces round a point light; else one face.
+    /// True if the map has six faces round a point light, false if it has one.
     pub is_cube: bool,
     /// Texels in each direction over which shadows are filtered.
     pub pcf_radius: u32,
 }
 
-/// One direct light pass for each kind of map that has been drawn.
+/// Direct light passes, one for each kind of map that has been drawn.
 pub struct PcfPasses {
     setup: PassSetup,
     map_layout: wgpu::BindGroupLayout,
@@ -42,12 +42,12 @@ pub struct PcfPasses {
 }
 
 impl PcfPasses {
-    /// No passes yet; they read maps bound with `map_layout` as bind group 2.
+    /// Creates an empty set. Its passes will read maps that are bound with `map_layout` as bind group 2.
     pub fn new(setup: &PassSetup, map_layout: &wgpu::BindGroupLayout) -> Self {
         Self { setup: setup.clone(), map_layout: map_layout.clone(), passes: HashMap::new() }
     }
 
-    /// Returns the pass that reads maps of a kind.
+    /// Returns the pass that reads maps of a kind; the first call creates it.
     pub fn pass(&mut self, gpu: &Gpu, kind: MapKind) -> &DirectLightPass {
         self.passes.entry(kind).or_insert_with(|| {
             let constants =

@@ -1,9 +1,9 @@
 //! Projections of shadow maps.
 //!
-//! A spot light has one perspective map, a point light the six faces of a cube, and a directional light an
-//! orthographic map that is fitted to the scene and snapped to whole texels. A face of a cube is a few texels wider
-//! than 90 degrees, so that filtering meets no seam. Depth is reversed as in pictures: near / distance for a
-//! perspective map, which is 1 at the near plane and 0 infinitely far.
+//! A spot light has one perspective map, a point light the six faces of a cube, and a directional light an orthographic
+//! map that is fitted to the scene and snapped to whole texels. A face of a cube is a few texels wider than 90 degrees,
+//! so that filters never cross its border. Depth is reversed as in pictures: near / distance for a perspective map,
+//! which is 1 at the near plane and 0 at infinity.
 
 use bytemuck::{Pod, Zeroable};
 use glam::camera::rh::proj::directx;
@@ -27,9 +27,9 @@ const FACES: [(Vec3, Vec3); 6] = [
 ];
 /// Near plane of a map, as a share of the scene's extent.
 const NEAR: f32 = 1e-4;
-/// A spot with a wider outer angle (radians) is drawn as a cube.
+/// Largest outer angle of a spot with one map, radians; a wider one has a cube.
 const WIDEST_SPOT: f32 = 1.2;
-/// Texels beyond the edge of a face, for interpolation.
+/// Number of texels that interpolation needs beyond the edge of a face.
 const BORDER: f32 = 2.0;
 
 /// Bound on the rounding of depths: absolute for an orthographic map, relative to the depth for a perspective one.
@@ -39,7 +39,7 @@ const ROUNDING: f32 = 2e-5;
 pub struct MapProjection {
     /// Projection of each face: one, or six of a cube.
     pub projection_from_world: Vec<Mat4>,
-    /// The same for passes that read the map.
+    /// Projection for passes that read the map.
     pub uniform: MapUniform,
 }
 
@@ -65,7 +65,7 @@ impl MapProjection {
         let near = NEAR * bounds.extent();
         let resolution = settings.resolution as f32;
         let border = BORDER + settings.pcf_radius as f32;
-        // The border is added to the field of view.
+        // Widens the field of view by the border.
         let widened = resolution / (resolution - 2.0 * border);
         let light_from_world = light_from_world(sample);
         let (projection_from_light, uniform) = match sample.light.kind {
@@ -108,12 +108,13 @@ fn perspective_uniform(half_width: f32, near: f32, settings: &MapSettings) -> Ma
     }
 }
 
-/// Texels in each direction that a lookup reads beside the one that holds the point: interpolation needs one more.
+/// Returns the number of texels in each direction that a lookup reads beside the texel of the point. Interpolation adds
+/// one to the radius of the filter.
 fn reach(settings: &MapSettings) -> u32 {
     settings.pcf_radius + 1
 }
 
-/// Returns the lowest and highest corner of a box's bounds in light space.
+/// Returns the minimum and maximum corner of a box's bounds in light space.
 fn box_in_light_space(Bounds { low, high }: Bounds, light_from_world: Mat4) -> (Vec3, Vec3) {
     let corner = |i: u32| Vec3::select(glam::BVec3::new(i & 1 > 0, i & 2 > 0, i & 4 > 0), high, low);
     let corners: Vec<Vec3> = (0..8).map(|i| light_from_world.transform_point3(corner(i))).collect();
