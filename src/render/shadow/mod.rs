@@ -13,8 +13,8 @@
 //! import each other. `dispatch` chooses the passes of a technique, `debug` draws what a technique works with, and
 //! `comparison` measures how far two techniques differ.
 //!
-//! Surfaces that blend throw shadows as if they were solid from half opacity on. They receive none: they keep the
-//! light of the bake.
+//! Surfaces that blend throw shadows as if they were solid from half opacity on. They receive none and show the light
+//! of the bake.
 
 pub(crate) mod comparison;
 pub(crate) mod debug;

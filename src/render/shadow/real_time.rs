@@ -20,17 +20,17 @@ use super::shared::frame_context::FrameContext;
 use super::technique::ShadowTechnique;
 use crate::gpu::Gpu;
 
-/// The direct light of a picture, as the surface pass reads it.
+/// The direct light of a picture, as input of the surface pass.
 pub enum DirectLight {
     /// Light samples that the surface pass adds itself.
     Few(FewLights),
     /// A texture of irradiance times pre-exposure, one value a pixel.
     Pixels(wgpu::TextureView),
-    /// The same, with as many samples a pixel as the picture.
+    /// A texture of irradiance times pre-exposure, with as many samples a pixel as the picture.
     Samples(wgpu::TextureView),
 }
 
-/// Passes of direct light, for pictures with one number of samples a pixel.
+/// Passes of direct light, for pictures with a given number of samples a pixel.
 pub struct RealTimeLight {
     setup: PassSetup,
     prepass: DepthPrepass,
@@ -75,7 +75,7 @@ impl RealTimeLight {
         }
     }
 
-    /// Drops what is kept from picture to picture, because the next picture shows another scene.
+    /// Drops the data that is cached for the last scene, because the next picture shows another scene.
     pub fn clear_scene(&mut self) {
         for passes in self.techniques.values_mut() {
             if let TechniquePasses::BySample(pass) = passes {
@@ -84,7 +84,7 @@ impl RealTimeLight {
         }
     }
 
-    /// Frees the textures that direct light is added up in, until a picture needs them again.
+    /// Frees the textures in which direct light is added up, until a picture needs them again.
     pub fn release_targets(&mut self) {
         self.targets = None;
         for passes in self.techniques.values_mut() {
@@ -128,12 +128,13 @@ impl RealTimeLight {
         if self.setup.samples > 1 { DirectLight::Samples(irradiance) } else { DirectLight::Pixels(irradiance) }
     }
 
-    /// Samples a pixel.
+    /// Returns the number of samples a pixel.
     pub(super) fn samples_per_pixel(&self) -> u32 {
         self.setup.samples
     }
 
-    /// Computes what has to be there before the first pass of a picture; for techniques that draw sample by sample.
+    /// Prepares a picture for a technique that draws sample by sample: uploads the light samples and computes what
+    /// their passes need.
     pub(super) fn prepare<'a>(&mut self, frame: FrameContext<'a>, settings: &'a ShadowSettings) -> SampleRun<'a> {
         let samples = settings.samples(frame.shadows);
         let targets = match self.targets.take() {
@@ -170,7 +171,8 @@ impl RealTimeLight {
         }
     }
 
-    /// Lights the surfaces on which the technique can show shadows, in shadow or not; false if these are all surfaces.
+    /// Lights the surfaces on which the technique can show shadows, also where they are in shadow. Returns false, and
+    /// draws nothing, if the technique can show shadows on every surface.
     pub(super) fn light_receivers(
         &mut self,
         encoder: &mut wgpu::CommandEncoder,
@@ -184,12 +186,12 @@ impl RealTimeLight {
         true
     }
 
-    /// Keeps the targets of a picture for the next one.
+    /// Stores the targets of a picture, for use by the next one.
     pub(super) fn keep_targets(&mut self, run: SampleRun<'_>) {
         self.targets = Some(run.targets);
     }
 
-    /// Returns the passes of a technique that traces rays.
+    /// Returns the passes of a technique that traces rays; `None` for other techniques.
     pub(super) fn rays(&mut self, gpu: &Gpu, technique: ShadowTechnique) -> Option<&mut RaytracedLight> {
         match self.passes(gpu, technique) {
             TechniquePasses::ByRays(rays) => Some(rays),

@@ -9,8 +9,8 @@ use crate::scene::Scene;
 
 impl ShadowScene {
     /// Finds the casters of a scene whose triangles have been uploaded as
-    /// [`SceneBuffers`](crate::render::scene::SceneBuffers), and uploads those with holes. Other data is made by the
-    /// first technique that needs it.
+    /// [`SceneBuffers`](crate::render::scene::SceneBuffers), and uploads the casters with holes. Other data is computed
+    /// by the first technique that needs it.
     #[must_use]
     pub fn new(gpu: &Gpu, scene: Arc<Scene>) -> Self {
         let shadows = Self::with_casters(scene);

@@ -11,16 +11,16 @@ use super::shared::scene::ShadowScene;
 use super::technique::ShadowTechnique;
 use super::volume::settings::VolumeSettings;
 
-/// How direct light is drawn.
+/// Settings of direct light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadowSettings {
-    /// How shadows are found.
+    /// Technique that finds shadows.
     pub technique: ShadowTechnique,
-    /// Points on each lamp that has a size, 1 to 256; each throws one hard shadow.
+    /// Number of samples for each lamp that has a size, 1 to 256. Each throws one hard shadow.
     pub light_samples: u32,
-    /// Radius that point and spot lights are given, metres; with 0 they stay points.
+    /// Radius of point and spot lights, metres; with 0 they are points.
     pub light_radius: f32,
-    /// The light samples that this picture adds to those of the last pictures; `None` draws all samples at once.
+    /// The light samples that this picture adds to the sum of previous pictures; `None` draws all samples at once.
     pub batch: Option<SampleBatch>,
     /// Settings of planar shadows.
     pub planar: PlanarSettings,
@@ -31,7 +31,7 @@ pub struct ShadowSettings {
 }
 
 impl ShadowSettings {
-    /// Returns settings of `technique` with all cures for its faults in force.
+    /// Returns settings of `technique` with the cures for all its faults switched on.
     #[must_use]
     pub fn new(technique: ShadowTechnique) -> Self {
         Self {

@@ -1,6 +1,6 @@
-//! The shadow techniques, in one table that feeds the command line, the panels and the benches.
+//! The shadow techniques, in one table that the command line, the panels and the benches use.
 
-/// How shadows are found.
+/// A technique that finds shadows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ShadowTechnique {
     /// No shadows: light passes through everything.
@@ -13,7 +13,7 @@ pub enum ShadowTechnique {
     VolumeDepthFail,
     /// Planar shadows: casters projected on to a few large planes (Blinn 1988).
     Planar,
-    /// One ray for each pixel and light sample, on the processor: the reference for the others.
+    /// One ray for each pixel and light sample, on the CPU: the reference for the other techniques.
     Raytraced,
 }
 
@@ -30,7 +30,8 @@ pub struct TechniqueInfo {
     pub hint: &'static str,
     /// Stencil bits that count shadows; `None` if the technique does not use the stencil.
     pub counted_bits: Option<u32>,
-    /// The surface pass can add the light of up to four samples itself, without passes for depth and direct light.
+    /// True if the surface pass can add the light of up to four samples itself, without passes for depth and direct
+    /// light.
     pub is_in_surface_pass: bool,
 }
 

@@ -1,17 +1,17 @@
 //! Settings of shadow maps.
 
-/// How shadow maps are drawn and looked up.
+/// Settings of shadow maps and their lookup.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapSettings {
     /// Texels across and down a face of a map.
     pub resolution: u32,
     /// Texels in each direction over which the edge of a shadow is filtered (PCF).
     pub pcf_radius: u32,
-    /// Shift of a point along its normal, texels. It avoids acne and lets light leak through thin walls; depths that
-    /// are compared with the plane of the receiver need none.
+    /// Shift of a point along its normal, texels. It avoids acne, but light leaks through thin walls. The lookup
+    /// compares with the plane of the receiver and needs no shift.
     pub normal_offset: f32,
-    /// Shift of a point towards the light, in units of the depth that its surface falls from texel to texel. Too little
-    /// shows acne, too much detaches shadows from their casters.
+    /// Shift of a point towards the light, as a multiple of its surface's change of depth from texel to texel. Too
+    /// small a shift shows acne, too large a shift detaches shadows from their casters.
     pub slope_bias: f32,
 }
 

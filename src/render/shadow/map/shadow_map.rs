@@ -33,9 +33,9 @@ pub struct ShadowMapPass {
 
 /// A map that has been drawn.
 pub struct ReadableMap {
-    /// One, or six of a cube.
+    /// Number of faces: one, or six of a cube.
     pub num_faces: u32,
-    /// How points are projected into it.
+    /// Projection of points into the map.
     pub uniform: MapUniform,
     /// Depth and block planes of all faces.
     pub textures: MapTextures,
@@ -71,12 +71,12 @@ impl ShadowMapPass {
         &self.sampler
     }
 
-    /// Textures to bind where a shader needs a map and does not read it.
+    /// Returns textures for bindings that a shader declares and does not read.
     pub fn no_map(&self) -> &MapTextures {
         &self.no_map
     }
 
-    /// Returns the map of a light sample; draws it unless it is kept from an earlier picture.
+    /// Returns the map of a light sample. Draws it unless it is cached.
     pub fn map(
         &self,
         encoder: &mut wgpu::CommandEncoder,

@@ -1,5 +1,5 @@
-//! The shadow map technique: draws the map of each light sample, then adds its light where the map shows no caster
-//! before the point.
+//! The shadow map technique: draws the map of each light sample, then adds its light where the map has no caster in
+//! front of the point.
 
 use super::pcf::{MapKind, PcfPasses};
 use super::shadow_map::ShadowMapPass;

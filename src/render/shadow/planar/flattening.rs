@@ -1,7 +1,7 @@
 //! Projection of casters on to a plane (Blinn 1988).
 //!
-//! It is computed in double precision, in the same way for both triangles at an edge, so that no light leaks through
-//! where casters are clipped.
+//! The projection is computed in double precision, and in the same way for both triangles at an edge. So no light leaks
+//! through where casters are clipped.
 
 use glam::{DMat4, DVec3, DVec4, Vec3, Vec4};
 
@@ -21,16 +21,16 @@ pub fn flattening(plane: DVec4, light: DVec4) -> DMat4 {
     DMat4::from_diagonal(DVec4::splat(plane.dot(light))) - outer
 }
 
-/// Projects casters on to a plane: returns triangles of three homogeneous corners, with w > 0 if casters are clipped.
-/// A caster within `clearance` of the plane (metres) lies in it and throws no shadow.
+/// Projects casters on to a plane. Returns three homogeneous corners for each triangle, with w > 0 if casters are
+/// clipped. A caster within `clearance` of the plane (metres) counts as part of it and throws no shadow.
 #[must_use]
 pub fn flattened(casters: &Casters, plane: Vec4, light: Vec4, settings: &PlanarSettings, clearance: f32) -> Vec<Vec4> {
     let (plane, light, clearance) = (plane.as_dvec4(), light.as_dvec4(), f64::from(clearance));
     let matrix = flattening(plane, light);
     let exact_height = |corner: DVec3| plane.dot(corner.extend(1.0));
     let height = |corner: DVec3| if exact_height(corner).abs() <= clearance { 0.0 } else { exact_height(corner) };
-    // A corner on the plane keeps its exact position: the foot of a wall is the edge of its floor, and rasterisation
-    // gives each pixel to one side of an edge only if both sides have the same corners.
+    // A corner on the plane keeps its exact position. The foot of a wall is the edge of its floor, and rasterisation
+    // assigns each pixel to one side of an edge only if both sides have equal corners.
     let flat = |corner: DVec3| match height(corner) {
         0.0 => corner.as_vec3().extend(1.0),
         _ => (matrix * corner.extend(1.0)).as_vec4(),
@@ -66,7 +66,8 @@ fn clip(polygon: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
             kept.push(this);
         }
         if (inside(this) >= 0.0) != (inside(next) >= 0.0) {
-            // Always from the inner end to the outer one, so that both triangles at an edge compute the same point.
+            // Goes always from the inner end to the outer one, so that both triangles at an edge compute the same
+            // point.
             let [from, to] = if inside(this) >= 0.0 { [this, next] } else { [next, this] };
             kept.push(from.lerp(to, inside(from) / (inside(from) - inside(to))));
         }

@@ -1,8 +1,8 @@
 //! Planar shadow pass: marks in the stencil which points are on a receiver, and which of them are in shadow.
 //!
-//! The stencil holds the number of a point's receiver in its upper five bits and counts shadows in the lower three
-//! (see [`stencil`](crate::render::shadow::shared::stencil)). Each of the text book's faults has a cure in
-//! [`PlanarSettings`].
+//! The stencil holds the number of a point's receiver in its upper five bits and counts shadows in the lower three (see
+//! [`stencil`](crate::render::shadow::shared::stencil)). [`PlanarSettings`] has a cure for each fault of the textbook
+//! method.
 
 use glam::Vec4;
 use wgpu::util::DeviceExt;
@@ -20,9 +20,9 @@ use crate::render::shadow::shared::stencil::{
 };
 
 const PLANAR_SHADOW: Shader = shader!("planar shadow", "shared/frame.wgsl", "shadow/planar/planar_shadow.wgsl");
-/// Depth bias of shadows that may stick out over their receivers: they lie above them.
+/// Depth bias of shadows that may extend beyond their receivers. It lifts them above the receivers.
 const LIFT: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: 16, slope_scale: 1.0, clamp: 0.0 };
-/// Distance from a plane within which a corner lies in it, as a share of the scene's extent.
+/// Largest distance from a plane of a corner that counts as part of it, as a share of the scene's extent.
 const CLEARANCE: f32 = 2e-5;
 
 /// Planar shadow pass.
@@ -31,13 +31,13 @@ pub struct PlanarShadowPass {
     module: wgpu::ShaderModule,
     samples: u32,
     mark: wgpu::RenderPipeline,
-    /// Pipeline of shadows, and the settings that it is for.
+    /// Pipeline of shadows, and the settings that it was created for.
     shadow: Option<(PlanarSettings, wgpu::RenderPipeline)>,
     receivers: Vec<(Receiver, wgpu::Buffer)>,
 }
 
 impl PlanarShadowPass {
-    /// Creates pipelines; they need only the frame.
+    /// Creates pipelines. They use only the bind group of the frame.
     pub fn new(gpu: &Gpu, setup: &PassSetup) -> Self {
         let (module, samples) = (PLANAR_SHADOW.module(gpu), setup.samples);
         let layout = pipeline_layout(gpu, "planar shadow", &[Some(&setup.frame_layout)]);
@@ -68,7 +68,7 @@ impl PlanarShadowPass {
         }
     }
 
-    /// Marks the shadows of a light at a homogeneous position, in a pass with cleared stencil and with bind group 0
+    /// Marks the shadows of a light at a homogeneous position. The stencil of the pass must be cleared and bind group 0
     /// set.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, frame: FrameContext<'_>, light: Vec4) {
         let (settings, shadow) = self.shadow.as_ref().expect("receivers have been chosen");
@@ -103,12 +103,12 @@ fn vertex_buffer(gpu: &Gpu, corners: &[Vec4]) -> wgpu::Buffer {
     })
 }
 
-/// Writes the receiver's number on the visible surface.
+/// Returns the state that writes the receiver's number where the receiver is visible.
 fn mark_stencil() -> wgpu::StencilState {
     both_faces(on_pass(wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace), !0, RECEIVER_BITS)
 }
 
-/// Counts a shadow on points whose receiver has the number of the reference value.
+/// Returns the state that counts a shadow on points whose receiver has the number of the reference value.
 fn shadow_stencil(settings: &PlanarSettings) -> wgpu::StencilState {
     use wgpu::CompareFunction::{Always, Equal};
     use wgpu::StencilOperation::{IncrementClamp, Replace};

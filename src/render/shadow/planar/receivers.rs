@@ -14,13 +14,14 @@ use crate::scene::{AlphaMode, Scene, area_of};
 pub struct Receiver {
     /// Unit normal n and distance w: n . p + w = 0.
     pub plane: Vec4,
-    /// Triangles that lie in it.
+    /// Triangles that lie in the plane.
     pub triangles: Vec<TriangleId>,
-    /// Their area, square metres.
+    /// Total area of these triangles, square metres.
     pub area: f32,
 }
 
-/// Returns the planes of a scene that receive shadows: those that are chosen, else those with the largest area.
+/// Returns the planes of a scene that receive shadows: the chosen planes, or those with the largest area if none is
+/// chosen.
 #[must_use]
 pub fn receivers(scene: &Scene, settings: &PlanarSettings) -> Vec<Receiver> {
     let mut planes = planes(scene);

@@ -8,23 +8,23 @@ use super::planes::{is_same_plane, plane_of};
 use crate::base::ids::{InstanceId, TriangleId};
 use crate::scene::Scene;
 
-/// How planar shadows are drawn.
+/// Settings of planar shadows.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlanarSettings {
-    /// How many of the largest planes receive shadows, if none are chosen.
+    /// Number of planes that receive shadows if none is chosen; the largest are taken.
     pub num_receivers: usize,
     /// Planes that are chosen to receive shadows, as `plane_of` returns them.
     pub receivers: Vec<Vec4>,
-    /// Instances that are chosen to throw shadows; all do if this is empty.
+    /// Instances that are chosen to throw shadows. If this is empty, all instances do.
     pub casters: BTreeSet<InstanceId>,
-    /// Shadows end at the edge of their receiver (a stencil mark). If off, they stick out into the air.
+    /// True if shadows end at the edge of their receiver (by a stencil mark). If false, they extend into the air.
     pub stays_on_receiver: bool,
-    /// The stencil mark replaces the depth test. If off, shadows fight with their receivers for depth.
+    /// True if the stencil mark replaces the depth test. If false, shadows and their receivers fight for depth.
     pub is_free_of_depth: bool,
-    /// Points under several casters are darkened once. If off, they are darkened twice.
+    /// True if points under several casters are darkened once. If false, they are darkened twice.
     pub darkens_once: bool,
-    /// Casters are clipped at the plane and at the height of the light. If off, those below the plane or above the
-    /// light throw anti-shadows.
+    /// True if casters are clipped at the plane and at the height of the light. If false, casters below the plane or
+    /// above the light throw anti-shadows.
     pub clips_casters: bool,
 }
 

@@ -12,9 +12,9 @@ use crate::render::shadow::settings::ShadowSettings;
 use crate::render::shadow::shared::frame_context::FrameContext;
 use crate::render::shadow::shared::stencil::{RECEIVER_BITS, SHADOW_BITS};
 
-/// Adds light where no shadow is counted, on receivers and elsewhere.
+/// Adds light where no shadow is counted, on receivers and on all other surfaces.
 const OUTSIDE_SHADOWS: LightBlend = LightBlend { read_mask: SHADOW_BITS, ..LIGHT_UNSHADOWED };
-/// Takes light away where at least two shadows overlap.
+/// Subtracts light where at least two shadows overlap.
 const UNDER_TWO_SHADOWS: LightBlend = LightBlend {
     read_mask: SHADOW_BITS,
     compare: wgpu::CompareFunction::LessEqual,
@@ -25,11 +25,11 @@ const UNDER_TWO_SHADOWS: LightBlend = LightBlend {
 const ON_RECEIVERS: LightBlend =
     LightBlend { read_mask: RECEIVER_BITS, compare: wgpu::CompareFunction::NotEqual, ..LIGHT_UNSHADOWED };
 
-/// Planar shadows.
+/// The planar shadow technique.
 pub struct PlanarShadows {
     shadows: PlanarShadowPass,
     light: DirectLightPass,
-    /// The fault of darkening twice.
+    /// Subtracts light a second time, to show the fault of darkening twice.
     darkens_twice: DirectLightPass,
     on_receivers: DirectLightPass,
 }
@@ -57,7 +57,7 @@ impl ShadowPass for PlanarShadows {
         self.shadows.draw(pass, sample.frame, sample.sample.position());
     }
 
-    /// A projected triangle does not show the holes in its texture.
+    /// True, because a projected triangle lacks the holes in its texture.
     fn needs_cutouts(&self) -> bool {
         true
     }

@@ -1,9 +1,10 @@
-//! Ray-traced shadows: the reference. One line of sight from each visible point to each light sample, on the processor.
+//! Ray-traced shadows: the reference. They trace a line of sight from each visible point to each light sample, on the
+//! CPU.
 //!
-//! The raster decides which surface a pixel shows ([`visible_points`]), so that pictures differ from those of the
-//! other techniques only in their shadows. Everything else is computed anew in double precision: [`ray_origin`] finds
-//! the point where the ray through the middle of the pixel meets a triangle, and [`traced_light`] which side of it
-//! faces the light and what stands between. With several samples a pixel all of them share that point.
+//! The raster decides which surface a pixel shows ([`visible_points`]), so pictures differ from those of the other
+//! techniques only in their shadows. Everything else is computed in double precision. [`ray_origin`] finds the point
+//! where the ray through the middle of the pixel hits a triangle. [`traced_light`] tests which side of the triangle
+//! faces the light and whether something stands between. If a pixel has several samples, they share that point.
 
 mod pixel_rays;
 mod ray_origin;

@@ -5,7 +5,7 @@ use glam::{DMat4, DVec2, DVec3, DVec4};
 use crate::render::View;
 use crate::render::shadow::shared::exact_rays::Line;
 
-/// Depth of the second point by which the line through a pixel is constructed.
+/// Depth of the second of the two points that define the line through a pixel. The first is on the near plane.
 const SECOND_DEPTH: f64 = 0.5;
 
 /// Lines through the pixels of a picture, in double precision.
@@ -17,13 +17,14 @@ pub struct PixelRays {
 }
 
 impl PixelRays {
-    /// Returns the lines of a view.
+    /// Returns the lines of a view for a picture of `size` pixels.
     pub fn new(view: &View, size: [u32; 2]) -> Self {
         let world_from_projection = view.projection_from_world().as_dmat4().inverse();
         Self { world_from_projection, eye: view.eye().as_dvec4(), size }
     }
 
-    /// Returns the line from the near plane away from the eye, `offset` pixels beside the middle of a pixel.
+    /// Returns the line that begins on the near plane and leads away from the eye, `offset` pixels beside the middle of
+    /// a pixel.
     pub fn through(&self, pixel: usize, offset: DVec2) -> Line {
         let [width, height] = self.size.map(f64::from);
         let (column, row) = ((pixel % self.size[0] as usize) as f64, (pixel / self.size[0] as usize) as f64);

@@ -1,4 +1,4 @@
-//! The visible point of a pixel, computed anew in double precision.
+//! The visible point of a pixel, computed in double precision.
 
 use glam::{DVec2, DVec3};
 
@@ -6,21 +6,22 @@ use super::pixel_rays::PixelRays;
 use super::visible_points::VisiblePoint;
 use crate::render::shadow::shared::exact_rays::{ExactRays, Line};
 
-/// Distance of a ray's origin from its surface, as a share of the way to the eye: surfaces in the same place as the
-/// visible one do not shadow it.
+/// Distance of a ray's origin from its surface, as a share of the distance to the eye. It keeps surfaces that coincide
+/// with the visible one from shadowing it.
 const TOWARDS_EYE: f64 = 1e-5;
-/// Upper bound of the distance by which the raster moves corners, pixels.
+/// Upper bound of the distance by which rasterisation moves corners, pixels.
 const SNAP: f64 = 1.0 / 128.0;
-/// Offsets of the lines beside the middle of a pixel, in units of [`SNAP`].
+/// Offsets of the four additional lines from the middle of a pixel, in units of [`SNAP`].
 const CORNERS: [DVec2; 4] = [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE];
-/// Largest distance on a line between two estimates of one point, as a share of the distance from the eye.
+/// Largest distance along a line between two estimates of one point, as a share of the distance from the eye.
 const SAME_POINT: f64 = 1e-3;
-/// Least cosine between a triangle's normal and its own shading normal.
+/// Smallest cosine between a triangle's normal and the shading normal of the raster that identifies the triangle for
+/// certain.
 const CERTAIN: f64 = 0.9;
 
-/// Where the rays of a pixel begin.
+/// The origin of a pixel's shadow rays, and the surface that it lies on.
 pub struct RayOrigin {
-    /// First point of the lines of sight, metres.
+    /// Origin of the lines of sight, metres.
     pub origin: DVec3,
     /// The visible point according to the raster.
     pub visible: VisiblePoint,
@@ -33,8 +34,8 @@ impl RayOrigin {
     pub fn new(rays: &ExactRays, lines: &PixelRays, pixel: usize, visible: VisiblePoint) -> Self {
         let middle = lines.through(pixel, DVec2::ZERO);
         let hit = SurfaceHit::new(rays, lines, middle, &visible).filter(SurfaceHit::is_certain).or_else(|| {
-            // At the edge of a triangle the raster may show another triangle than the line through the middle meets,
-            // because it snaps corners to a fraction of a pixel.
+            // The raster snaps corners to a fraction of a pixel. So at the edge of a triangle it may show another
+            // triangle than the line through the middle hits.
             let beside = CORNERS.map(|corner| lines.through(pixel, SNAP * corner));
             let hits =
                 [middle].into_iter().chain(beside).filter_map(|line| SurfaceHit::new(rays, lines, line, &visible));
@@ -65,13 +66,13 @@ impl SurfaceHit {
         Some(Self { point, corners, cosine: seen.dot(visible.normal.as_dvec3()) })
     }
 
-    /// Whether this is certainly the triangle that the raster shows.
+    /// Returns true if this is certainly the triangle that the raster shows.
     fn is_certain(&self) -> bool {
         self.cosine > CERTAIN
     }
 }
 
-/// Returns a normal on the front of a triangle, of any length.
+/// Returns a normal of any length on the front side of a triangle.
 pub fn front_normal([a, b, c]: [DVec3; 3]) -> DVec3 {
     (b - a).cross(c - a)
 }

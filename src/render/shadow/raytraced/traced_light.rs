@@ -19,7 +19,7 @@ pub struct RaytracedLight {
     prepass: DepthPrepass,
     points: VisiblePoints,
     targets: Option<LightTargets>,
-    /// Sum of the last picture.
+    /// Irradiance of the last picture.
     irradiance: Vec<Vec4>,
 }
 
@@ -39,9 +39,9 @@ impl RaytracedLight {
         self.targets = None;
     }
 
-    /// Returns a texture of irradiance times pre-exposure, whose fourth channel counts the visible samples. If
-    /// `adds_to_last`, it is the sum with the last picture. It is black if the device was lost, which the next
-    /// read-back reports.
+    /// Returns a texture of irradiance times pre-exposure. Its fourth channel counts the visible samples. If
+    /// `adds_to_last`, it is the sum with the last picture. If the device was lost, it is black, and the next read-back
+    /// reports the loss.
     pub fn draw(&mut self, frame: FrameContext<'_>, samples: &[LightSample], adds_to_last: bool) -> wgpu::TextureView {
         let origins = self.origins(frame).unwrap_or_default();
         let irradiance_at = |origin: &RayOrigin| {
@@ -64,7 +64,7 @@ impl RaytracedLight {
         upload(frame, &self.irradiance)
     }
 
-    /// Returns which pixels each light sample lights, `[sample][pixel]`.
+    /// Returns for each light sample whether it lights a pixel, `[sample][pixel]`.
     ///
     /// # Errors
     /// Returns an error if the device was lost.
@@ -104,8 +104,8 @@ fn received(frame: FrameContext<'_>, visible: &VisiblePoint, sample: &LightSampl
     sample.irradiance(visible.point, visible.normal) * frame.render_settings.group_weight(sample.light.group)
 }
 
-/// Whether nothing solid stands between a visible point and a light sample, and its triangle shows the light the same
-/// side as the eye.
+/// Returns true if a visible point faces the light with the side that the eye sees, and nothing solid stands between
+/// the point and the light sample.
 fn is_lit(frame: FrameContext<'_>, origin: &RayOrigin, sample: &LightSample) -> bool {
     let light = sample.position().as_dvec4();
     let eye = frame.view.eye().as_dvec4();
@@ -115,7 +115,7 @@ fn is_lit(frame: FrameContext<'_>, origin: &RayOrigin, sample: &LightSample) -> 
     !frame.shadows.rays().is_blocked(Line::between(origin.origin, light))
 }
 
-/// Whether the eye and the light, both homogeneous, are on different sides of a triangle.
+/// Returns true if the eye and the light, both homogeneous, are on different sides of a triangle.
 fn turns_its_back(corners: [DVec3; 3], eye: DVec4, light: DVec4) -> bool {
     let normal = front_normal(corners);
     let height = |position: DVec4| normal.dot(position.truncate() - position.w * corners[0]);

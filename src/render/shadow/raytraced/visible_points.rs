@@ -1,4 +1,4 @@
-//! Visible points pass: position and normal of the surface in each pixel, after the depth prepass.
+//! Visible points pass: finds position and normal of the surface in each pixel, after the depth prepass.
 
 use glam::Vec3;
 

@@ -1,10 +1,10 @@
 //! Casters: the opaque triangles of a scene, joined at their edges.
 //!
-//! Files split vertices at seams, leave meshes open, let three faces share an edge, turn some faces over and end
-//! edges in the middle of longer ones (T-junctions). A shadow volume is closed all the same if each edge sums the
-//! triangles on it with the sign of their direction (Kim, Kim and Turk 2008, "A shadow-volume algorithm for opaque
-//! and transparent nonmanifold casters"; see `volume/hull.rs`). So corners are welded by position, and an edge is cut
-//! where other corners lie on it. Casters with holes and casters that blend are not here but in `cutout/`.
+//! Files split vertices at seams, leave meshes open, let three faces share an edge, turn some faces over and end edges
+//! in the middle of longer ones (T-junctions). A shadow volume is closed nevertheless if each edge sums the triangles
+//! on it with the sign of their direction (Kim, Kim and Turk 2008, "A shadow-volume algorithm for opaque and
+//! transparent nonmanifold casters"; see `volume/hull.rs`). So corners are welded by position, and an edge is cut where
+//! other corners lie on it. Casters with holes and casters that blend are in `cutout/`.
 
 use std::collections::HashMap;
 
@@ -13,22 +13,22 @@ use glam::Vec3;
 use crate::base::ids::InstanceId;
 use crate::scene::{AlphaMode, Scene, edge_cross};
 
-/// Largest distance of a corner that lies on an edge, as a share of the scene's extent.
+/// Largest distance from an edge of a corner that counts as lying on it, as a share of the scene's extent.
 const ON_EDGE: f32 = 2e-6;
 
 /// Opaque triangles, which throw shadows, and their edges.
 #[derive(Clone, Debug, Default)]
 pub struct Casters {
-    /// Corners `[v]`, metres, each position once.
+    /// Positions of the welded corners `[v]`, metres.
     pub positions: Vec<Vec3>,
     /// The triangles `[t]`.
     pub triangles: Vec<Caster>,
     /// Parts of triangles, as corners: the triangle itself, and a sliver for each corner that lies on one of its edges.
-    /// Slivers close the volume at T-junctions, and the triangle keeps its exact depth.
+    /// Slivers close the volume at T-junctions. The triangle is not subdivided, so its depth stays exact.
     pub parts: Vec<[u32; 3]>,
-    /// Edges `[e]` of the triangles, each once.
+    /// Edges of the triangles `[e]`, each once.
     pub edges: Vec<Edge>,
-    /// Triangles at the edges, edge by edge.
+    /// Triangles at the edges, ordered by edge.
     pub sides: Vec<Side>,
 }
 
@@ -37,11 +37,11 @@ pub struct Casters {
 pub struct Caster {
     /// Indices of its corners, counter-clockwise seen from the front.
     pub corners: [u32; 3],
-    /// Its range of [`Casters::parts`].
+    /// Range of its parts in [`Casters::parts`].
     pub parts: std::ops::Range<u32>,
-    /// Shading normals of the corners.
+    /// Shading normals at the corners.
     pub normals: [Vec3; 3],
-    /// Its back is invisible if backs are culled; it throws a shadow from both sides.
+    /// True if its back is invisible when backs are culled. It throws a shadow from both sides.
     pub is_single_sided: bool,
     /// Instance that it belongs to.
     pub instance: InstanceId,
@@ -50,9 +50,9 @@ pub struct Caster {
 /// Two corners and the triangles that meet there.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// Its ends, the lower index first.
+    /// Corners at its ends, the lower index first.
     pub ends: [u32; 2],
-    /// Its range of [`Casters::sides`].
+    /// Range of its triangles in [`Casters::sides`].
     pub sides: std::ops::Range<u32>,
 }
 
@@ -66,7 +66,7 @@ pub struct Side {
 }
 
 impl Casters {
-    /// Collects and joins all opaque triangles of a scene that have an area.
+    /// Collects all opaque triangles of a scene that have an area, and joins them at their edges.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         let mut casters = Self::default();
@@ -100,7 +100,7 @@ impl Casters {
         casters
     }
 
-    /// Returns for each edge the corners that lie on it, from the end with the lower index to the other.
+    /// Returns for each edge the corners that lie within it, from the end with the lower index to the other.
     fn cuts(&self, tolerance: f32) -> HashMap<[u32; 2], Vec<u32>> {
         let mut uses: HashMap<[u32; 2], u32> = HashMap::new();
         for triangle in &self.triangles {
@@ -108,7 +108,7 @@ impl Casters {
                 *uses.entry(sorted(ends)).or_default() += 1;
             }
         }
-        // Two triangles share a whole edge; at a T-junction each edge has an odd number of triangles.
+        // Two triangles share a whole edge. At a T-junction each edge belongs to an odd number of triangles.
         let odd: Vec<[u32; 2]> = uses.into_iter().filter(|(_, uses)| uses % 2 == 1).map(|(ends, _)| ends).collect();
         let mut corners: Vec<u32> = odd.iter().flatten().copied().collect();
         corners.sort_unstable_by(|&a, &b| self.at(a).x.total_cmp(&self.at(b).x).then(a.cmp(&b)));
@@ -119,7 +119,7 @@ impl Casters {
             .collect()
     }
 
-    /// Returns those of `corners`, sorted by x, that lie within an edge, from its first end to its second.
+    /// Returns those of `corners` (sorted by x) that lie within an edge, from its first end to its second.
     fn corners_on(&self, [a, b]: [u32; 2], corners: &[u32], tolerance: f32) -> Vec<u32> {
         let (from, to) = (self.at(a), self.at(b));
         let (length, along) = ((to - from).length(), (to - from).normalize_or_zero());
@@ -139,7 +139,7 @@ impl Casters {
         found.into_iter().map(|(_, corner)| corner).collect()
     }
 
-    /// Cuts edges at the corners on them, adds the slivers that this opens, and collects the edges.
+    /// Cuts edges at the corners on them, adds slivers for the gaps that this opens, and collects the edges.
     fn join(&mut self, cuts: &HashMap<[u32; 2], Vec<u32>>) {
         let mut sides: Vec<([u32; 2], Side)> = Vec::new();
         let mut add_side = |triangle: usize, ends: [u32; 2]| {

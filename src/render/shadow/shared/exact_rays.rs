@@ -1,7 +1,7 @@
 //! Lines of sight in double precision, watertight where triangles meet.
 //!
-//! The side on which a line passes an edge is computed in the same order of operations for both triangles at the
-//! edge, so a line along the edge meets at least one of them (Woop, Benthin and Wald 2013, "Watertight Ray/Triangle
+//! The side on which a line passes an edge is computed in the same order of operations for both triangles at the edge.
+//! So a line along the edge hits at least one of them (Woop, Benthin and Wald 2013, "Watertight Ray/Triangle
 //! Intersection", there in single precision). These rays are the reference for all techniques: they are slower than
 //! `trace::Tracer` and share no code with it.
 
@@ -18,7 +18,7 @@ use crate::scene::{AlphaMode, Scene};
 
 /// Margin of a box round its triangles, as a share of the scene's extent.
 const SLACK: f32 = 1e-6;
-/// Least opacity of a surface that blocks light.
+/// Smallest opacity of a surface that blocks light.
 const HALF_OPAQUE: f32 = 0.5;
 
 /// The triangles of a scene in a tree of boxes.
@@ -46,11 +46,11 @@ pub struct Hit {
 /// A line from `origin` along `direction`, up to `reach` lengths of it.
 #[derive(Clone, Copy, Debug)]
 pub struct Line {
-    /// Metres.
+    /// Start of the line, metres.
     pub origin: DVec3,
     /// Direction, of any length.
     pub direction: DVec3,
-    /// In lengths of `direction`, may be infinite.
+    /// End of the line, in lengths of `direction`; may be infinite.
     pub reach: f64,
 }
 
@@ -91,7 +91,7 @@ impl ExactRays {
         Self { scene, triangles, tree }
     }
 
-    /// Whether a solid surface lies on the line, its ends excluded.
+    /// Returns true if a solid surface lies on the line, its ends excluded.
     #[must_use]
     pub fn is_blocked(&self, line: Line) -> bool {
         let mut is_blocked = false;
@@ -102,7 +102,7 @@ impl ExactRays {
         is_blocked
     }
 
-    /// Returns the hit whose distance along the line is nearest to `distance`.
+    /// Returns the hit whose distance along the line is closest to `distance`.
     #[must_use]
     pub fn nearest_to(&self, line: Line, distance: f64) -> Option<Hit> {
         let mut best: Option<Hit> = None;
@@ -148,7 +148,7 @@ impl ExactRays {
         let passes = [[b, c], [c, a], [a, b]].map(|[from, to]| side_of_edge(line, from, to));
         let is_inside = passes.iter().all(|&side| side >= 0.0) || passes.iter().all(|&side| side <= 0.0);
         let total: f64 = passes.iter().sum();
-        // A line within the plane of a triangle is not blocked by it.
+        // The plane of a triangle contains the line: the triangle does not block it.
         if !is_inside || total == 0.0 {
             return None;
         }
@@ -166,7 +166,7 @@ impl ExactRays {
 
 /// Returns on which side of an edge the line passes, by sign: the scalar triple product d . ((a - o) x (b - o)).
 ///
-/// The ends are ordered by position first, so that swapping `from` and `to` yields exactly the negative value.
+/// The ends are ordered by position first, so swapping `from` and `to` yields exactly the negated value.
 fn side_of_edge(line: Line, from: DVec3, to: DVec3) -> f64 {
     let is_in_order = from.to_array() < to.to_array();
     let [low, high] = if is_in_order { [from, to] } else { [to, from] };

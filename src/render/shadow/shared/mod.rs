@@ -1,6 +1,6 @@
-//! What all shadow techniques are built from: the frame, the casters and lines of sight of a scene, and pipelines.
+//! Building blocks of all shadow techniques: the frame, the casters and lines of sight of a scene, and pipelines.
 //!
-//! Files here import no technique: rooms stand on this folder, not the other way round.
+//! Files here import no technique; the techniques import this folder.
 
 pub mod casters;
 pub mod depth_prepass;

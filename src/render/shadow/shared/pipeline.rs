@@ -1,4 +1,4 @@
-//! What the pipelines of all shadow passes have in common.
+//! Common parts of the pipelines of all shadow passes.
 
 use glam::Vec4;
 
@@ -12,7 +12,7 @@ pub const CORNER: wgpu::VertexBufferLayout<'_> = wgpu::VertexBufferLayout {
     attributes: &wgpu::vertex_attr_array![0 => Float32x4],
 };
 
-/// Returns a depth format with a stencil of eight bits, the most that every device has.
+/// Returns a depth format with a stencil of eight bits, the size that every device supports.
 pub fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
     if gpu.device.features().contains(wgpu::Features::DEPTH32FLOAT_STENCIL8) {
         wgpu::TextureFormat::Depth32FloatStencil8
@@ -21,13 +21,13 @@ pub fn depth_stencil_format(gpu: &Gpu) -> wgpu::TextureFormat {
     }
 }
 
-/// Describes a pipeline that draws triangles; the entry point of its vertex stage is `vertex`.
+/// Describes a pipeline that draws triangles. The entry point of its vertex stage is `vertex`.
 ///
-/// [`PipelineRecipe::new`] fills in the least: the vertices of the scene, no fragment stage, one sample a pixel.
+/// [`PipelineRecipe::new`] fills in the defaults: the vertices of the scene, no fragment stage, one sample a pixel.
 pub struct PipelineRecipe<'a> {
     /// Label for debuggers.
     pub label: &'a str,
-    /// Bind groups.
+    /// Layout of the bind groups.
     pub layout: &'a wgpu::PipelineLayout,
     /// Shader module of both stages.
     pub module: &'a wgpu::ShaderModule,
@@ -88,7 +88,7 @@ impl<'a> PipelineRecipe<'a> {
     }
 }
 
-/// Creates a pipeline layout of some bind groups.
+/// Creates a pipeline layout from layouts of bind groups.
 pub fn pipeline_layout(gpu: &Gpu, label: &str, groups: &[Option<&wgpu::BindGroupLayout>]) -> wgpu::PipelineLayout {
     gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
         label: Some(label),
@@ -97,12 +97,12 @@ pub fn pipeline_layout(gpu: &Gpu, label: &str, groups: &[Option<&wgpu::BindGroup
     })
 }
 
-/// Draws triangles without the faces of `cull_mode`.
+/// Returns a primitive state for triangles that culls the faces of `cull_mode`.
 pub fn culling(cull_mode: Option<wgpu::Face>) -> wgpu::PrimitiveState {
     wgpu::PrimitiveState { cull_mode, ..Default::default() }
 }
 
-/// Compares with the depth of the visible surfaces and leaves it as it is.
+/// Returns a state that compares with the depth of the visible surfaces and does not write depth.
 pub fn against_depth(
     gpu: &Gpu,
     compare: wgpu::CompareFunction,
@@ -118,7 +118,8 @@ pub fn against_depth(
     }
 }
 
-/// Writes the depth of the surface nearest to the eye or the light. Depth is reversed: 1 is near, 0 infinitely far.
+/// Returns a state that writes the depth of the surface nearest to the eye or the light. Depth is reversed: 1 is near,
+/// 0 infinitely far.
 pub fn nearest(format: wgpu::TextureFormat) -> wgpu::DepthStencilState {
     wgpu::DepthStencilState {
         format,

@@ -1,4 +1,4 @@
-//! Draws the solid surfaces of a scene: all surfaces but those that blend, with or without their backs.
+//! Draws the solid surfaces of a scene: all surfaces except those that blend, with or without their backs.
 
 use crate::render::RenderSettings;
 use crate::render::scene::SceneBuffers;
@@ -22,7 +22,8 @@ impl SolidPipelines {
         if batch.faces.are_culled(settings.cull_back) { &self.culled } else { &self.two_sided }
     }
 
-    /// Draws all solid batches without materials, for passes after the depth prepass, which has cut the holes out.
+    /// Draws all solid batches without materials, for passes after the depth prepass, which discards the holes of
+    /// masks.
     pub fn draw(&self, pass: &mut wgpu::RenderPass<'_>, scene: &SceneBuffers, settings: &RenderSettings) {
         bind_mesh(pass, scene);
         for batch in solid_batches(scene) {

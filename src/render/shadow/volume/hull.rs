@@ -1,9 +1,9 @@
 //! The triangles of shadow volumes: sides at the outline of the casters, and caps.
 //!
 //! A side at an edge (a, b) is the quadrilateral a, b, b', a', where v' is v moved away from the light L to infinity:
-//! v' = (v w - L, 0) for a homogeneous light (L, w). How often and in which direction each edge has a side is its
-//! signed count (see [`silhouette`](super::silhouette)). For depth-fail, caps close each volume at its triangle and
-//! at infinity.
+//! v' = (v w - L, 0) for a homogeneous light (L, w). The signed count of an edge states how often and in which
+//! direction it has a side (see [`silhouette`](super::silhouette)). For depth-fail, caps close each volume at its
+//! triangle and at infinity.
 
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
@@ -11,23 +11,23 @@ use rayon::prelude::*;
 use super::silhouette::count;
 use crate::render::shadow::shared::casters::{Caster, Casters, Edge};
 
-/// Edges of one parallel task.
+/// Number of edges in one parallel task.
 const CHUNK: usize = 4096;
 
-/// Which sides of shadow volumes are counted.
+/// The sides of shadow volumes that are counted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Counting {
-    /// Those in front of the visible point (z-pass): needs sides only.
+    /// Sides in front of the visible point (z-pass). Needs sides only.
     DepthPass,
-    /// Those behind the visible point (z-fail): needs sides and both caps.
+    /// Sides behind the visible point (z-fail). Needs sides and both caps.
     DepthFail,
 }
 
-/// The shadow volumes of one light, as triangles. An index is 2 v for corner v where it is, and 2 v + 1 for corner v
-/// moved away from the light to infinity.
+/// The shadow volumes of one light, as triangles. Index 2 v is corner v at its own position, and index 2 v + 1 is
+/// corner v moved away from the light to infinity.
 ///
 /// Sides list the corners of their edge in the same order for both windings, and caps list them in the order of their
-/// triangle, so that triangles that coincide have the same depth to the last bit.
+/// triangle. So triangles that coincide have the same depth to the last bit.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Hull {
     /// Triangles that are counter-clockwise seen from outside the volume.
@@ -60,7 +60,7 @@ pub fn hull(casters: &Casters, facing: &[i32], position: Vec4, counting: Countin
     hull
 }
 
-/// Returns one closed volume for each triangle. This is slow, and right by construction.
+/// Returns one closed volume for each triangle. This is slow, but correct by construction.
 #[must_use]
 pub fn hull_triangle_by_triangle(casters: &Casters, facing: &[i32], position: Vec4) -> Hull {
     let is_directional = position.w == 0.0;
@@ -78,10 +78,12 @@ pub fn hull_triangle_by_triangle(casters: &Casters, facing: &[i32], position: Ve
     hull
 }
 
-/// Returns the triangles at the terminator of smooth surfaces: a shading normal faces the light, the triangle itself
-/// does not. Those whose front is dark are counter-clockwise, those whose back is dark clockwise.
+/// Returns the triangles at the terminator of smooth surfaces: their dark side faces away from the light, but a shading
+/// normal of that side faces it. Triangles whose front is dark are counter-clockwise, those whose back is dark
+/// clockwise.
 ///
-/// Sides of volumes run too close to these triangles to be distinguished by depth, so they are darkened explicitly.
+/// Sides of volumes run so close to these triangles that depth cannot distinguish them. So they are darkened
+/// explicitly.
 #[must_use]
 pub fn terminator(casters: &Casters, facing: &[i32], position: Vec4) -> Hull {
     let mut hull = Hull::default();
@@ -98,19 +100,19 @@ pub fn terminator(casters: &Casters, facing: &[i32], position: Vec4) -> Hull {
 }
 
 impl Hull {
-    /// Adds the side at an edge |count| times, with the winding of its sign.
+    /// Adds the side at an edge |count| times; the sign of `count` selects the winding.
     fn add_side(&mut self, [a, b]: [u32; 2], count: i32, is_directional: bool) {
         let list = self.list(count);
         for _ in 0..count.unsigned_abs() {
             list.extend([near(a), far(a), near(b)]);
-            // The shadows of all points of a directional light meet in one point at infinity.
+            // The shadows of all points of a directional light converge at one point at infinity.
             if !is_directional {
                 list.extend([far(a), far(b), near(b)]);
             }
         }
     }
 
-    /// Adds the caps that close the volume of a triangle towards the light: the triangle itself.
+    /// Adds the caps that close the volume of a triangle towards the light: the parts of the triangle.
     pub fn add_light_caps(&mut self, casters: &Casters, triangle: &Caster, facing: i32) {
         if facing != 0 {
             self.list(facing).extend(casters.parts(triangle).iter().flatten().map(|&corner| near(corner)));
@@ -134,12 +136,12 @@ impl Hull {
     }
 }
 
-/// Index of a corner where it is.
+/// Returns the index of a corner at its own position.
 fn near(corner: u32) -> u32 {
     2 * corner
 }
 
-/// Index of a corner moved away from the light to infinity.
+/// Returns the index of a corner moved away from the light to infinity.
 fn far(corner: u32) -> u32 {
     2 * corner + 1
 }

@@ -1,4 +1,4 @@
-//! Views from which shadow volumes are known to be wrong with their cures switched off.
+//! Detects views from which shadow volumes are known to be wrong because their cures are switched off.
 
 use glam::{Vec3, Vec4};
 
@@ -9,10 +9,11 @@ use crate::render::shadow::light::sample::LightSample;
 use crate::render::shadow::shared::exact_rays::Line;
 use crate::render::shadow::shared::scene::ShadowScene;
 
-/// Why shadows are known to be wrong.
+/// Reason why shadows are known to be wrong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum KnownFault {
-    /// Depth-pass without its cure counts from outside, but the eye is in a volume of this lamp.
+    /// Depth-pass without its cure, and the eye is in a volume of this lamp. The count assumes an eye outside all
+    /// volumes.
     EyeInVolume {
         /// [`LightSample::lamp`].
         lamp: usize,
@@ -22,11 +23,11 @@ pub enum KnownFault {
         /// [`LightSample::lamp`].
         lamp: usize,
     },
-    /// Depth-fail with a far plane, which cuts off the sides and caps that are counted.
+    /// Depth-fail with a far plane. It cuts off sides and caps that have to be counted.
     FarPlaneCutsVolumes,
 }
 
-/// Returns the fault of one way to count volumes, seen by `view`; `None` if none is known.
+/// Returns the fault of a way to count volumes from `view`; `None` if none is known.
 #[must_use]
 pub fn fault_of_counting(
     shadows: &ShadowScene,

@@ -6,7 +6,7 @@ use crate::render::View;
 
 /// Margin for rounding, as a share of the distance from the eye to the light.
 const MARGIN: f32 = 1e-5;
-/// Distance that a directional light is given, metres.
+/// Substitute for the distance of a directional light, metres.
 const FAR_AWAY: f32 = 1e6;
 
 /// A disc round the visible part of the near plane.
@@ -16,7 +16,7 @@ pub struct NearPlane {
 }
 
 impl NearPlane {
-    /// Returns the near plane of a view.
+    /// Returns the disc round the near plane of a view.
     #[must_use]
     pub fn new(view: &View) -> Self {
         let world_from_projection = view.projection_from_world().inverse();
@@ -25,11 +25,11 @@ impl NearPlane {
         Self { centre, radius: centre.distance(at(1.0, 1.0)) }
     }
 
-    /// Whether the volume of a triangle may reach the near plane, from a light at a homogeneous position.
-    /// Conservative: true in doubt.
+    /// Returns true if the volume of a triangle may reach the near plane, from a light at a homogeneous position. The
+    /// test is conservative: it may return true for a volume that does not reach the plane.
     ///
-    /// It does if the triangle meets the cone from the light to the near plane; a capsule round its axis bounds the
-    /// cone.
+    /// The volume reaches the plane if the triangle intersects the cone from the light to the near plane. A capsule
+    /// round the cone's axis bounds the cone.
     #[must_use]
     pub fn is_reached_by_volume(&self, corners: [Vec3; 3], light: Vec4) -> bool {
         let to_light = if light.w == 0.0 { light.truncate() * FAR_AWAY } else { light.truncate() - self.centre };
@@ -41,7 +41,7 @@ impl NearPlane {
         if (self.centre + along * to_light).distance(middle) > radius + extent {
             return false;
         }
-        // No if both ends of the axis are on one side of the triangle's plane, and far from it.
+        // The triangle misses the cone if both ends of the axis are on one side of its plane, and far from it.
         let normal = crate::scene::normal_of(corners);
         let from = normal.dot(self.centre - corners[0]);
         let to = normal.dot(self.centre + to_light - corners[0]);

@@ -1,15 +1,15 @@
 //! Settings of shadow volumes.
 
-/// How shadow volumes are counted.
+/// Settings of shadow volumes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeSettings {
-    /// Depth-pass counts triangles whose volumes reach the near plane by depth-fail. If off, shadows are wrong where
-    /// the near plane cuts a volume, as in a textbook.
+    /// True if depth-pass counts triangles whose volumes reach the near plane by depth-fail. If false, shadows are
+    /// wrong where the near plane cuts a volume, as in a textbook.
     pub near_plane_cure: bool,
-    /// Distance of a far plane that cuts volumes off, metres; `None` is right.
+    /// Distance of a far plane that cuts volumes off, metres. `None` is correct; a far plane shows the fault.
     pub far_plane: Option<f32>,
-    /// Triangles that meet at an edge share one volume. If off, each triangle has its own, which is slow and checks
-    /// that joining is right. For depth-fail only.
+    /// True if triangles that share an edge share one volume. If false, each triangle has its own, which is slow and
+    /// serves to check the joined volume. For depth-fail only.
     pub joined: bool,
 }
 

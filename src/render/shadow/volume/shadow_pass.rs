@@ -1,4 +1,4 @@
-//! The shadow volume techniques: mark the volumes of each light sample in the stencil, then add its light elsewhere.
+//! The shadow volume techniques: mark the volumes of each light sample in the stencil, then add its light outside them.
 
 use glam::Vec4;
 
@@ -14,7 +14,7 @@ use crate::render::shadow::light::targets::LightTargets;
 use crate::render::shadow::settings::ShadowSettings;
 use crate::render::shadow::shared::frame_context::FrameContext;
 
-/// Shadow volumes, counted by depth-pass or depth-fail.
+/// The technique of shadow volumes, counted by depth-pass or depth-fail.
 pub struct VolumeShadows {
     volumes: ShadowVolumePass,
     light: DirectLightPass,
@@ -38,7 +38,7 @@ impl ShadowPass for VolumeShadows {
         self.volumes.draw(pass, sample.frame, sample.sample.position(), &sample.settings.volumes);
     }
 
-    /// The volume of a triangle does not show the holes in its texture.
+    /// True, because the volume of a triangle lacks the holes in its texture.
     fn needs_cutouts(&self) -> bool {
         true
     }

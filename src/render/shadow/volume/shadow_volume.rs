@@ -1,8 +1,7 @@
-//! Shadow volume pass: counts in the stencil the volumes that each visible point is in.
+//! Shadow volume pass: counts in the stencil the number of volumes that each visible point is in.
 //!
-//! The volumes of a light are kept from picture to picture while neither light nor casters move; the cure of z-pass
-//! depends on the view as well. An orthographic view has a far plane, which cuts volumes off as
-//! [`VolumeSettings::far_plane`] does.
+//! The volumes of a light are cached while neither light nor casters move; with the cure of z-pass they depend on the
+//! view as well. An orthographic view has a far plane, which cuts volumes off as [`VolumeSettings::far_plane`] does.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -38,17 +37,17 @@ pub struct ShadowVolumePass {
     module: wgpu::ShaderModule,
     counting: Counting,
     pipelines: VolumePipelines,
-    /// Pipelines with a far plane at a distance in metres.
+    /// Pipelines that cut volumes off, and the distance of their far plane, metres.
     cut_off: Option<(f32, VolumePipelines)>,
     volumes: HashMap<VolumeKey, VolumeBuffers>,
 }
 
-/// What the volumes of a light depend on.
+/// Everything that the volumes of a light depend on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 struct VolumeKey {
     /// Bits of the homogeneous position of the light.
     light: [u32; 4],
-    /// Bits of the projection, and whether backs are culled; `None` if the view does not matter.
+    /// Bits of the projection, and whether backs are culled; `None` if the volumes do not depend on the view.
     view: Option<([u32; 16], bool)>,
     is_joined: bool,
 }
@@ -60,15 +59,15 @@ struct VolumeBuffers {
     terminator: HullBuffer,
 }
 
-/// A [`Hull`] in one index buffer.
+/// A [`Hull`] as one index buffer.
 struct HullBuffer {
     indices: wgpu::Buffer,
     counter_clockwise: Range<u32>,
     clockwise: Range<u32>,
 }
 
-/// Corners of the casters of a scene on the device: each as (v, 0) and as (v, 1), in the order of the indices of
-/// [`Hull`].
+/// Corners of the casters of a scene on the device. Each is stored as (v, 0) and as (v, 1), in the order of the indices
+/// of [`Hull`].
 struct CornerBuffer(wgpu::Buffer);
 
 impl SceneData for CornerBuffer {}
@@ -85,14 +84,14 @@ impl CornerBuffer {
 }
 
 impl ShadowVolumePass {
-    /// Creates pipelines for volumes that are counted in one way.
+    /// Creates pipelines for volumes that are counted by `counting`.
     pub fn new(gpu: &Gpu, setup: &PassSetup, counting: Counting) -> Self {
         let module = SHADOW_VOLUME.module(gpu);
         let pipelines = VolumePipelines::new(gpu, setup, &module, None);
         Self { setup: setup.clone(), module, counting, pipelines, cut_off: None, volumes: HashMap::new() }
     }
 
-    /// Computes the volumes of all lights at homogeneous positions, except those that are kept from the last picture.
+    /// Computes the volumes of all lights at homogeneous positions, except those that are cached.
     pub fn prepare(&mut self, frame: FrameContext<'_>, lights: &[Vec4], settings: &VolumeSettings) {
         if let Some(distance) = settings.far_plane
             && self.cut_off.as_ref().is_none_or(|(known, _)| *known != distance)
@@ -118,7 +117,7 @@ impl ShadowVolumePass {
         self.volumes.clear();
     }
 
-    /// Counts the volumes of a light, in a pass with cleared stencil and with bind groups 0 and 1 set.
+    /// Counts the volumes of a light. The stencil of the pass must be cleared and bind groups 0 and 1 set.
     pub fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,

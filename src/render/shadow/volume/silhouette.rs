@@ -1,15 +1,15 @@
-//! Signed edge counts: which edges are the outline of the casters, seen from a light.
+//! Signed edge counts: determine which edges are the outline of the casters, seen from a light.
 //!
-//! Each triangle t is oriented so that it faces the light: f_t = +1 if its front does, -1 if its back does. An edge e
-//! sums over its triangles the direction d = +1 or -1 in which each runs along it (Kim, Kim and Turk 2008, "A
-//! shadow-volume algorithm for opaque and transparent nonmanifold casters"):
+//! Each triangle t is oriented so that it faces the light: f_t = +1 if its front does, -1 if its back does. A triangle
+//! t at edge e runs along it in the direction d = +1 or -1. The count of the edge is the sum over its triangles (Kim,
+//! Kim and Turk 2008, "A shadow-volume algorithm for opaque and transparent nonmanifold casters"):
 //!
 //! ```text
 //! c_e = sum over the triangles t at e of  d_{t,e} f_t
 //! ```
 //!
-//! Within a surface two triangles cancel. At a silhouette they add up to +-2, at the border of an open mesh to +-1.
-//! The sign is the direction of the volume's side at this edge, and the absolute value how often it is drawn.
+//! Within a surface two triangles cancel. At a silhouette they add up to +-2, at the border of an open mesh to +-1. The
+//! sign is the direction of the volume's side at this edge, and the absolute value is the number of times it is drawn.
 
 use glam::{DVec3, Vec3, Vec4};
 use rayon::prelude::*;
@@ -18,7 +18,7 @@ use crate::render::shadow::shared::casters::{Caster, Casters, Edge};
 
 /// Returns for each triangle `[t]` +1 if its front faces a light at the homogeneous `position`, -1 if its back does.
 ///
-/// It is computed once for a triangle and in double precision, because all its edges must agree.
+/// The value is computed once for a triangle and in double precision, because all edges of the triangle must agree.
 #[must_use]
 pub fn facing(casters: &Casters, position: Vec4) -> Vec<i32> {
     let light = position.truncate().as_dvec3();
@@ -30,13 +30,13 @@ pub fn facing(casters: &Casters, position: Vec4) -> Vec<i32> {
     casters.triangles.par_iter().map(of).collect()
 }
 
-/// Returns the signed count of an edge: how often it is a side of the volumes, and in which direction by sign.
+/// Returns the signed count of an edge: how often it has a side, and in which direction by sign.
 pub fn count(casters: &Casters, edge: &Edge, facing: &[i32]) -> i32 {
     let sides = &casters.sides[edge.sides.start as usize..edge.sides.end as usize];
     sides.iter().map(|side| side.direction * facing[side.triangle as usize]).sum()
 }
 
-/// Returns the ends of all edges with a count that is not zero: the outline of the casters, seen from the light.
+/// Returns the ends of all edges whose count is not zero: the outline of the casters, seen from the light.
 #[must_use]
 pub fn silhouette(casters: &Casters, facing: &[i32]) -> Vec<[u32; 2]> {
     casters.edges.iter().filter(|edge| count(casters, edge, facing) != 0).map(|edge| edge.ends).collect()

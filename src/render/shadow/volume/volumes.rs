@@ -1,9 +1,10 @@
-//! The volumes of one light, each triangle counted in the way that is right for it.
+//! The volumes of one light. Each triangle is counted in the way that is right for it.
 //!
-//! z-pass counts faces between eye and point, so it is wrong where the near plane is in a volume: the face through
-//! which the eye entered is cut away. The cure counts the few triangles whose volumes reach the near plane by z-fail
-//! and all others by z-pass: a count is a sum over triangles, and each summand may be counted either way (the idea of
-//! ZP+, Hornus et al. 2005, "ZP+: correct z-pass stencil shadows", which counts the near plane in a pass of its own).
+//! z-pass counts faces between eye and point. It is wrong where the near plane is in a volume, because the face through
+//! which the path enters the volume is clipped. The cure counts the few triangles whose volumes reach the near plane by
+//! z-fail and all others by z-pass: a count is a sum over triangles, and each summand may be counted either way (the
+//! idea of ZP+, Hornus et al. 2005, "ZP+: correct z-pass stencil shadows", which counts the near plane in a pass of its
+//! own).
 
 use glam::{DVec4, Vec3, Vec4};
 use rayon::prelude::*;
@@ -21,7 +22,7 @@ pub struct Volumes {
     pub depth_pass: Hull,
     /// Volumes that are counted by z-fail.
     pub depth_fail: Hull,
-    /// Triangles that are dark whatever is counted.
+    /// Triangles that are dark regardless of the counts.
     pub terminator: Hull,
 }
 
@@ -30,7 +31,7 @@ pub struct Viewpoint {
     /// Homogeneous position.
     position: DVec4,
     near_plane: NearPlane,
-    /// Backs of single-sided triangles are invisible.
+    /// True if backs of single-sided triangles are invisible.
     culls_backs: bool,
 }
 
@@ -44,7 +45,7 @@ impl Viewpoint {
         }
     }
 
-    /// Whether a triangle is not culled.
+    /// Returns true if a triangle is not culled.
     fn shows(&self, casters: &Casters, triangle: &Caster) -> bool {
         let [a, b, c] = casters.corners(triangle).map(Vec3::as_dvec3);
         let to_eye = self.position.truncate() - self.position.w * a;
@@ -73,7 +74,7 @@ impl Volumes {
     }
 }
 
-/// Returns volumes for z-pass, and for z-fail those of the triangles between the light and the near plane.
+/// Returns the volumes for z-pass, and those for z-fail: of the triangles whose volumes may reach the near plane.
 fn cured(casters: &Casters, viewpoint: &Viewpoint, facing: &[i32], light: Vec4) -> (Hull, Hull) {
     let reaches = |triangle: &Caster| viewpoint.near_plane.is_reached_by_volume(casters.corners(triangle), light);
     let is_fail: Vec<bool> = casters.triangles.par_iter().map(reaches).collect();
@@ -82,7 +83,7 @@ fn cured(casters: &Casters, viewpoint: &Viewpoint, facing: &[i32], light: Vec4) 
     };
     let by_pass = only(false);
     let mut depth_pass = hull(casters, &by_pass, light, Counting::DepthPass);
-    // A cap coincides with its triangle, so it is in front of the visible point only if the triangle is invisible.
+    // A cap coincides with its triangle. So it is in front of the visible point only if the triangle is invisible.
     for (triangle, &facing) in casters.triangles.iter().zip(&by_pass) {
         if !viewpoint.shows(casters, triangle) {
             depth_pass.add_light_caps(casters, triangle, facing);
