@@ -96,7 +96,7 @@ pub fn run(args: &BakeArgs, terminal: Terminal) -> Result<()> {
     Ok(())
 }
 
-/// Prints what the bake made and how long it took.
+/// Prints the size and the duration of the bake.
 fn print_summary(report: &Report, output: &Path, exposure_ev: f32, terminal: Terminal) {
     let Report {
         mesh: MeshCounts { elements, patches, .. }, work: Work { hemicubes, unshot_share, .. }, seconds, ..

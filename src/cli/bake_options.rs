@@ -35,7 +35,7 @@ pub struct BakeOptions {
 }
 
 impl BakeOptions {
-    /// The settings that the options mean.
+    /// Returns the bake settings that the options describe.
     #[must_use]
     pub fn settings(&self) -> BakeSettings {
         let preset = BakeSettings::preset(self.quality);

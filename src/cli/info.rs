@@ -31,7 +31,7 @@ pub fn run(args: &InfoArgs) -> Result<()> {
     let mut text = String::new();
     write_report(&mut text, &scene)?;
     match std::io::stdout().write_all(text.as_bytes()) {
-        // The reader has closed the pipe, as in `hemicube info X | head`.
+        // The reader may close the pipe early, for example in `hemicube info X | head`.
         Err(error) if error.kind() == ErrorKind::BrokenPipe => Ok(()),
         other => Ok(other?),
     }
@@ -65,7 +65,7 @@ fn write_report(out: &mut String, scene: &Scene) -> fmt::Result {
     list(out, "mesh doctor", &doctor::examine(scene).lines())
 }
 
-/// The predicted cost of a bake with each preset.
+/// Returns the predicted cost of a bake with each preset.
 fn forecasts(scene: &Scene) -> impl Iterator<Item = (String, String)> {
     Quality::ALL.into_iter().filter_map(|quality| {
         let Forecast { elements, patches, vertices, bytes } =
@@ -80,7 +80,7 @@ fn row(out: &mut String, label: &str, value: impl fmt::Display) -> fmt::Result {
     writeln!(out, "  {label:<12}{value}")
 }
 
-/// A heading and aligned pairs; nothing if there are no pairs.
+/// Writes a heading and aligned pairs; nothing if there are no pairs.
 fn section(out: &mut String, title: &str, pairs: impl Iterator<Item = (String, String)>) -> fmt::Result {
     let pairs: Vec<_> = pairs.collect();
     let width = pairs.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0).max(10);

@@ -26,7 +26,7 @@ pub struct LightmapOptions {
 }
 
 impl LightmapOptions {
-    /// The lightmap of a bake of `scene`; `None` without --lightmap.
+    /// Computes the lightmap of a bake of `scene`; `None` without --lightmap.
     ///
     /// # Errors
     /// Returns an error if the scene falls into too many pieces.
@@ -40,7 +40,7 @@ impl LightmapOptions {
     }
 }
 
-/// Writes a lightmap beside the baked scene; returns a summary.
+/// Writes a lightmap beside the baked scene. Returns a summary.
 ///
 /// # Errors
 /// Returns an error if a file cannot be written.
@@ -58,7 +58,7 @@ pub fn write_lightmap(map: &Lightmap, output: &Path, exposure_ev: f32) -> Result
     ))
 }
 
-/// A file of the lightmap beside the baked scene.
+/// Returns the path of a file of the lightmap beside the baked scene.
 fn beside(output: &Path, extension: &str) -> PathBuf {
     let stem = output.file_stem().unwrap_or_default().to_string_lossy();
     output.with_file_name(format!("{stem}-lightmap.{extension}"))

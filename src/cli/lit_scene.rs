@@ -1,4 +1,4 @@
-//! From a loaded scene to its light, which is stored in the file or baked now.
+//! The light of a loaded scene: stored in the file, or baked now.
 
 use anyhow::Result;
 
@@ -9,7 +9,7 @@ use crate::form_factor::row_cache::RowCache;
 use crate::gpu::Gpu;
 use crate::scene::Scene;
 
-/// The device that draws the hemicubes of a bake; `None` if the bake uses rays.
+/// Opens the device that draws the hemicubes of a bake; `None` if the bake uses rays.
 ///
 /// # Errors
 /// Returns an error if the settings require hemicubes and there is no driver.
@@ -27,7 +27,7 @@ pub fn bake_device(settings: &BakeSettings) -> Result<Option<Gpu>> {
     }
 }
 
-/// Bakes with progress on the terminal; Ctrl-C ends the bake after the current batch and keeps what is solved.
+/// Bakes with progress on the terminal. Ctrl-C ends the bake after the current batch; the light solved so far remains.
 ///
 /// # Errors
 /// Returns an error if the scene cannot be baked.
@@ -47,7 +47,7 @@ pub fn bake_watched(
     Ok(bake)
 }
 
-/// A loaded scene with its light: the stored light, or a bake made now.
+/// Returns a loaded scene with its light: the stored light, or a bake made now.
 ///
 /// # Errors
 /// Returns an error if the scene cannot be baked.

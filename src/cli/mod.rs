@@ -61,12 +61,12 @@ pub enum Command {
 }
 
 impl Verbosity {
-    /// The terminal that subcommands print on.
+    /// Returns the terminal that subcommands print on.
     fn terminal(&self) -> Terminal {
         Terminal::new(self.quiet)
     }
 
-    /// Level of the messages that are logged on stderr.
+    /// Returns the level of the messages that are logged on stderr.
     #[must_use]
     pub fn level(&self) -> log::LevelFilter {
         match (self.quiet, self.verbose) {
@@ -81,7 +81,7 @@ impl Verbosity {
 /// Runs the subcommand.
 ///
 /// # Errors
-/// Returns the one message that `main` prints.
+/// Returns the error of the subcommand, which `main` prints.
 pub fn run(cli: &Cli) -> Result<()> {
     let terminal = cli.verbosity.terminal();
     match &cli.command {

@@ -1,17 +1,17 @@
-//! Silence on machines without a desktop.
+//! Suppresses a message of the Wayland library on machines without a desktop.
 //!
 //! In each Vulkan instance, Mesa's device selection layer (22.3) tries to connect to a Wayland display. Without a desktop the
 //! variable `XDG_RUNTIME_DIR` is not set, and libwayland then prints "error: XDG_RUNTIME_DIR is invalid or not set in the
-//! environment." With the variable set it fails to connect without a word. A process cannot change its own environment in
-//! safe Rust, so the program starts itself again in the same process.
+//! environment." If the variable is set, the connection fails without a message. Safe Rust cannot change the
+//! environment of the own process, so the program is executed again in the same process with the variable set.
 
-/// A folder that holds no sockets, whether it exists or not.
+/// A folder without sockets. It need not exist.
 #[cfg(target_os = "linux")]
 const NO_SOCKETS: &str = "/var/empty";
 
 /// Replaces the process by the same program with `XDG_RUNTIME_DIR` set, if it is not set to an absolute path.
 ///
-/// Returns if there is nothing to do, or if the system refuses: the messages are then all that is wrong.
+/// Returns if there is nothing to do or the system refuses. In the second case only the messages remain.
 pub fn set_runtime_dir() {
     #[cfg(target_os = "linux")]
     {

@@ -10,7 +10,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use crate::bake::BakeObserver;
 use crate::base::progress::{Cancel, Progress, Stage};
 
-/// Where a subcommand prints what it does: stderr, or nowhere with `--quiet`.
+/// Output of the messages of a subcommand: stderr, or nothing with `--quiet`.
 #[derive(Clone, Copy, Debug)]
 pub struct Terminal {
     is_quiet: bool,
@@ -23,11 +23,11 @@ pub struct TerminalWatch {
     stage: Mutex<Option<Stage>>,
 }
 
-/// Steps of the bar.
+/// Number of steps of the bar.
 const STEPS: u64 = 1000;
 
 impl Terminal {
-    /// A terminal that prints nothing if `is_quiet`.
+    /// Creates a terminal that prints nothing if `is_quiet`.
     #[must_use]
     pub fn new(is_quiet: bool) -> Self {
         Self { is_quiet }
@@ -40,8 +40,8 @@ impl Terminal {
         }
     }
 
-    /// Watches work that Ctrl-C ends. It draws a progress bar if stderr is a terminal; all watches of the process share
-    /// one handler of Ctrl-C.
+    /// Creates a watch for work that Ctrl-C ends. It draws a progress bar if stderr is a terminal. All watches of the
+    /// process share one handler of Ctrl-C.
     ///
     /// # Errors
     /// Returns an error if the handler cannot be installed.

@@ -62,7 +62,7 @@ pub fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
     <[f32; N]>::try_from(numbers).ok().filter(|numbers| numbers.iter().all(|number| number.is_finite()))
 }
 
-/// The unit vector in this direction.
+/// Returns the unit vector in this direction.
 pub fn unit_normal(normal: Vec3) -> Result<Vec3, String> {
     normal.try_normalize().ok_or_else(|| "the normal has no direction".to_owned())
 }

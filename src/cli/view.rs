@@ -59,7 +59,7 @@ pub fn run(_: &ViewArgs) -> Result<()> {
     anyhow::bail!("this build has no viewer: build it with the feature \"viewer\", or use a subcommand (see --help)")
 }
 
-/// The folder of shaders in the source tree, in a debug build whose source tree still exists.
+/// Returns the folder of shaders in the source tree. `None` in a release build, or if the source tree does not exist.
 #[cfg(feature = "viewer")]
 fn source_folder() -> Option<PathBuf> {
     let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/shaders"));

@@ -17,7 +17,7 @@ pub enum Action {
     SaveBake,
     /// Goes to a camera of the file, by its index.
     GoToCamera(usize),
-    /// Goes to the camera of the file this many further.
+    /// Goes this many cameras of the file further.
     StepCamera(isize),
     /// Goes to the bookmark of a number.
     GoToBookmark(u8),
@@ -47,11 +47,11 @@ pub enum Action {
     ChooseFile,
     /// Loads the open file again.
     Reload,
-    /// Loads the open file in a material variant; `None` is the file without a variant.
+    /// Loads the open file in a material variant; `None` stands for the default materials.
     SetVariant(Option<String>),
     /// Selects what a click in the picture does.
     SelectTool(Tool),
-    /// Keeps the last reading of the meter.
+    /// Pins the last reading of the meter.
     PinReading,
     /// Drops all readings and the grid.
     ClearReadings,
@@ -61,7 +61,7 @@ pub enum Action {
     WriteReadings,
     /// Records the bake for the time machine, or cancels the recording.
     ToggleRecording,
-    /// Fits the false colours to the light of the scene.
+    /// Fits the scale of the false colours to the light of the scene.
     FitLuxScale,
     /// Raises the exposure by this many thirds of a stop.
     StepExposure(f32),

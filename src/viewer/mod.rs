@@ -7,15 +7,15 @@
 //! | [`camera`] | pose and movement of the camera, walking, collision |
 //! | [`settings`], [`preferences`], `action` | what the user sets, what is kept between runs, what keys and panels request |
 //! | `solution` | the solved light, and what is computed from it: lux meter, patch view, traced view, recording |
-//! | `job` | threads that compute those |
-//! | [`picture`] | what a picture of the scene shows |
+//! | `job` | threads for these computations |
+//! | [`picture`] | the content of a picture of the scene |
 //! | [`session`] | the open scene, and the worker that loads and bakes it |
 //! | [`panels`] | the panels |
-//! | [`software`] | what only a software driver needs |
-//! | [`drawing`] | what draws the picture |
+//! | [`software`] | parts for software drivers only |
+//! | [`drawing`] | drawing of the picture |
 //! | `window` | events, actions, frames |
 //!
-//! Deliberately absent: any light of its own; everything that is drawn comes from [`crate::render`].
+//! Deliberately absent: computation of light. Every picture is drawn by [`crate::render`].
 
 pub mod camera;
 pub mod drawing;

@@ -9,7 +9,7 @@ use crate::bake::BakeSettings;
 pub struct ViewerOptions {
     /// The glTF file; `None` opens the built-in scene.
     pub scene: Option<PathBuf>,
-    /// The material variant of the file; `None` takes the materials that the file has without one.
+    /// The material variant of the file; `None` takes the default materials.
     pub variant: Option<String>,
     /// Settings of the bake if the file has no light.
     pub settings: BakeSettings,

@@ -1,6 +1,6 @@
-//! Preferences: what is kept between runs, in a JSON file of the user's configuration folder.
+//! Preferences, which are stored between runs in a JSON file in the user's configuration folder.
 //!
-//! A file that cannot be read counts as empty, and one that cannot be written is only logged.
+//! A file that cannot be read counts as empty. A failure to write is only logged.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -14,9 +14,9 @@ use crate::viewer::camera::pose::CameraPose;
 use crate::viewer::settings::picture_file::PictureSettings;
 use crate::viewer::settings::view::{Tab, Wire};
 
-/// Most recent files that are kept.
+/// Largest number of recent files.
 const MAX_RECENT: usize = 8;
-/// Most scenes whose bookmarks are kept.
+/// Largest number of scenes with bookmarks.
 const MAX_SCENES: usize = 64;
 
 /// Preferences and recent files of the user. The names of the fields are those of the file.
@@ -25,19 +25,19 @@ const MAX_SCENES: usize = 64;
 pub struct Preferences {
     /// Recent files, the newest first.
     pub recent: Vec<PathBuf>,
-    /// The tour of the first start has been closed.
+    /// True if the tour of the first start has been closed.
     pub has_seen_tour: bool,
-    /// The side panel is shown.
+    /// True if the side panel is shown.
     pub is_open: bool,
     /// The page of the side panel.
     pub tab: Tab,
-    /// Whether sections of the side panel are unfolded, by their titles.
+    /// True for each section of the side panel that is unfolded, by title.
     pub sections: BTreeMap<String, bool>,
     /// Scale of the false colours.
     pub lux_scale: LuxScale,
-    /// The wire over the picture.
+    /// The wireframe over the picture.
     pub wire: Wire,
-    /// The view is traced while the camera rests.
+    /// True if the view is traced while the camera rests.
     pub traces_stills: bool,
     /// Settings of large pictures.
     pub picture: PictureSettings,
@@ -45,10 +45,10 @@ pub struct Preferences {
     pub bookmarks: BTreeMap<PathBuf, Bookmarks>,
 }
 
-/// The views of number keys.
+/// The views of a scene by number key.
 pub type Bookmarks = BTreeMap<u8, Bookmark>;
 
-/// A view that is kept.
+/// A stored view.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Bookmark {
     position: [f32; 3],
@@ -81,7 +81,7 @@ impl From<&CameraPose> for Bookmark {
 }
 
 impl Bookmark {
-    /// The pose of the camera.
+    /// Returns the pose of the camera.
     #[must_use]
     pub fn pose(&self) -> CameraPose {
         CameraPose { position: Vec3::from_array(self.position), yaw: self.yaw, pitch: self.pitch, fov_y: self.fov_y }
@@ -96,13 +96,13 @@ impl Bookmark {
 }
 
 impl Preferences {
-    /// Path of the file; `None` if the system has no configuration folder.
+    /// Returns the path of the file; `None` if the system has no configuration folder.
     #[must_use]
     pub fn path() -> Option<PathBuf> {
         Some(dirs::config_dir()?.join("hemicube").join("viewer.json"))
     }
 
-    /// Reads a file; the defaults if there is none or it is not valid. Values out of range are corrected.
+    /// Reads a file. Returns the defaults if there is none or it is not valid. Values out of range are corrected.
     #[must_use]
     pub fn read(path: &Path) -> Self {
         let text = std::fs::read_to_string(path).unwrap_or_default();
@@ -115,7 +115,7 @@ impl Preferences {
         preferences
     }
 
-    /// Writes the file; failures are logged.
+    /// Writes the file. Failures are logged.
     pub fn write(&self, path: &Path) {
         let written = path.parent().map_or(Ok(()), std::fs::create_dir_all).and_then(|()| {
             let text = serde_json::to_vec_pretty(self).map_err(std::io::Error::other)?;
@@ -141,13 +141,13 @@ impl Preferences {
         self.bookmarks.entry(scene.to_owned()).or_default().insert(number, pose.into());
     }
 
-    /// Numbers of the bookmarks of a scene.
+    /// Returns the numbers of the bookmarks of a scene.
     #[must_use]
     pub fn bookmarks_of(&self, scene: &Path) -> Vec<u8> {
         self.bookmarks.get(scene).map(|bookmarks| bookmarks.keys().copied().collect()).unwrap_or_default()
     }
 
-    /// The bookmark `number` of a scene.
+    /// Returns the pose of the bookmark `number` of a scene.
     #[must_use]
     pub fn bookmark(&self, scene: &Path, number: u8) -> Option<CameraPose> {
         Some(self.bookmarks.get(scene)?.get(&number)?.pose())

@@ -87,7 +87,7 @@ pub fn run(args: &MeasureArgs, terminal: Terminal) -> Result<()> {
     write_whole(&args.output, table.as_bytes()).with_context(|| format!("{}: cannot be written", args.output.display()))
 }
 
-/// Irradiance from the light of the file, or of a bake made now.
+/// Computes irradiance from the light of the file, or of a bake made now.
 fn by_radiosity(scene: Scene, points: &[MeasuringPoint], args: &MeasureArgs, terminal: Terminal) -> Result<String> {
     let settings = args.bake.settings();
     let lit = match baked::gltf::from_scene(scene) {
@@ -116,7 +116,7 @@ fn by_radiosity(scene: Scene, points: &[MeasuringPoint], args: &MeasureArgs, ter
     table_of_values(points, &measured)
 }
 
-/// Irradiance by path tracing.
+/// Computes irradiance by path tracing.
 fn by_paths(scene: &Scene, points: &[MeasuringPoint], args: &MeasureArgs, terminal: Terminal) -> Result<String> {
     let default = PathSettings::default();
     let settings = PathSettings {

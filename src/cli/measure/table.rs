@@ -12,7 +12,7 @@ use crate::raytrace::{Irradiance, MeasuringPoint};
 /// The first columns of every table that is written.
 const COLUMNS: [&str; 13] = ["px", "py", "pz", "nx", "ny", "nz", "E_r", "E_g", "E_b", "Ed_r", "Ed_g", "Ed_b", "lux"];
 
-/// A table of irradiance, lux; NaN for a point on no surface.
+/// Formats a table of irradiance, lux; NaN for a point on no surface.
 ///
 /// # Errors
 /// Returns an error if the table is not UTF-8.
@@ -26,7 +26,7 @@ pub fn table_of_values(points: &[MeasuringPoint], measured: &[Option<Measured>])
     to_csv(&COLUMNS, rows)
 }
 
-/// A table of irradiance and its standard error, lux.
+/// Formats a table of irradiance and its standard error, lux.
 ///
 /// # Errors
 /// Returns an error if the table is not UTF-8.
@@ -50,7 +50,7 @@ fn to_csv(columns: &[&str], rows: impl Iterator<Item = Vec<f32>>) -> Result<Stri
 /// Reads a table of points.
 ///
 /// # Errors
-/// Returns an error if the file cannot be read, a column is missing, or a value is no number.
+/// Returns an error if the file cannot be read, a column is missing, or a value is not a number.
 pub fn read_points(path: &Path) -> Result<Vec<MeasuringPoint>> {
     let name = path.display();
     let mut reader =

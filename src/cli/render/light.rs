@@ -1,4 +1,4 @@
-//! The light of a picture: which light is baked, and how much of each kind is shown.
+//! The light of a picture: whether it is stored or baked now, and which parts of it are shown.
 
 use anyhow::Result;
 use glam::Vec3;
@@ -11,7 +11,8 @@ use crate::gpu::Gpu;
 use crate::render::RenderSettings;
 use crate::scene::Scene;
 
-/// The scene with the light of a rasterised picture.
+/// Returns the scene with the light of a rasterised picture: stored in the file, or baked now if the picture shows
+/// baked light.
 ///
 /// # Errors
 /// Returns an error if the scene cannot be baked.
@@ -24,7 +25,8 @@ pub fn raster_light(gpu: &Gpu, scene: Scene, args: &RenderArgs, terminal: Termin
     if needs_no_bake { Ok(stored_light(scene)) } else { lit_scene(Some(gpu), scene, &args.bake.settings(), terminal) }
 }
 
-/// The scene with the light of the first pass, which the second pass does not trace.
+/// Returns the scene with the light of the first pass, from which the second pass takes indirect light. Bakes it unless
+/// the file stores it or the picture shows none.
 ///
 /// # Errors
 /// Returns an error if the scene cannot be baked.
@@ -39,12 +41,12 @@ pub fn first_pass_light(scene: Scene, args: &RenderArgs, terminal: Terminal) -> 
     }
 }
 
-/// The scene with the light that its file stores; dark if it stores none.
+/// Returns the scene with the light that its file stores, or without light if it stores none.
 pub fn stored_light(scene: Scene) -> BakedScene {
     baked::gltf::from_scene(scene).unwrap_or_else(BakedScene::dark)
 }
 
-/// Render settings that show the light that the options choose.
+/// Returns render settings for the light that the options choose.
 pub fn render_settings(args: &RenderArgs, baked: &BakedScene) -> RenderSettings {
     let all = RenderSettings {
         exposure: args.exposure,
@@ -52,7 +54,8 @@ pub fn render_settings(args: &RenderArgs, baked: &BakedScene) -> RenderSettings 
         shadow_debug: args.shadows.debug(),
         ..RenderSettings::default()
     };
-    // Ambient light replaces the stored light. Real-time shadows have direct light of their own.
+    // Under `Ambient` a constant term replaces the stored light. Direct light is shown only if it is computed in real
+    // time, with shadows.
     let shadowed = f32::from(u8::from(all.shadows.is_some()));
     match args.lighting() {
         Lighting::Direct => RenderSettings { indirect: 0.0, ..all },
@@ -63,7 +66,7 @@ pub fn render_settings(args: &RenderArgs, baked: &BakedScene) -> RenderSettings 
     }
 }
 
-/// Radiance of white paint under the mean irradiance of the vertices, L = E / pi; 1 if there is no light.
+/// Computes the radiance of white paint under the mean irradiance of the vertices, L = E / pi; 1 if there is no light.
 fn mean_radiance(light: &VertexLight) -> Vec3 {
     let num_vertices = light.groups.first().map_or(0, |group| group.direct.len()).max(1);
     let total: Vec3 = light.groups.iter().flat_map(|group| group.direct.iter().chain(&group.indirect)).sum();

@@ -81,12 +81,12 @@ pub enum Lighting {
     IndirectAndDirect,
 }
 
-/// Width and height in pixels. clap would read a plain array as an option that may be repeated.
+/// Width and height in pixels. A type of its own, since clap reads a plain array as an option that may be repeated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Size(pub [u32; 2]);
 
 impl RenderArgs {
-    /// The chosen lighting, or the default of the renderer.
+    /// Returns the chosen lighting, or the default of the renderer.
     #[must_use]
     pub fn lighting(&self) -> Lighting {
         let default = match self.rays.renderer {

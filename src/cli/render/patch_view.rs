@@ -35,13 +35,13 @@ pub fn write_patch_view(scene: Scene, at: &MeasuringPoint, args: &RenderArgs, te
     Ok(save_display(&items_path(&args.output), view.size, &colours)?)
 }
 
-/// A colour that differs from those of neighbouring elements.
+/// Returns a colour that differs from those of neighbouring elements.
 fn item_colour(element: u32) -> Vec3 {
     let channel = |i: u32| 0.05 + 0.9 * unit_float(hash(hash(element) ^ i));
     Vec3::new(channel(0), channel(1), channel(2))
 }
 
-/// IMG-items.png beside IMG.
+/// Returns the path IMG-items.png beside IMG.
 fn items_path(picture: &Path) -> PathBuf {
     let stem = picture.file_stem().unwrap_or_default().to_string_lossy();
     picture.with_file_name(format!("{stem}-items.png"))

@@ -40,7 +40,7 @@ pub fn compare_with_reference(
     Ok(())
 }
 
-/// IMG-difference.png beside IMG.
+/// Returns the path IMG-difference.png beside IMG.
 fn difference_path(picture: &Path) -> PathBuf {
     let stem = picture.file_stem().unwrap_or_default().to_string_lossy();
     picture.with_file_name(format!("{stem}-difference.png"))

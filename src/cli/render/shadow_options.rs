@@ -34,25 +34,25 @@ pub struct ShadowOptions {
     pub compare_shadows: Option<Vec<ShadowTechnique>>,
 }
 
-/// The table of techniques for [`one_of`].
+/// Returns the table of techniques for [`one_of`].
 fn techniques() -> [(ShadowTechnique, &'static str, &'static str); ShadowTechnique::ALL.len()] {
     ShadowTechnique::ALL.map(|info| (info.technique, info.name, info.hint))
 }
 
 impl ShadowOptions {
-    /// Settings of the shadows; `None` without --shadows.
+    /// Returns the settings of the shadows; `None` without --shadows.
     #[must_use]
     pub fn settings(&self) -> Option<ShadowSettings> {
         self.shadows.map(|technique| self.settings_of(technique))
     }
 
-    /// The debug view; `None` without --shadow-debug.
+    /// Returns the debug view; `None` without --shadow-debug.
     #[must_use]
     pub fn debug(&self) -> Option<ShadowDebug> {
         self.shadow_debug.map(|view| ShadowDebug { view, light: self.shadow_debug_light })
     }
 
-    /// Settings of the two techniques to compare; `None` without --compare-shadows.
+    /// Returns the settings of the two techniques to compare; `None` without --compare-shadows.
     ///
     /// # Errors
     /// Returns an error if there are not two techniques.

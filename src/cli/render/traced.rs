@@ -16,7 +16,7 @@ use crate::trace::Tracer;
 /// Largest side of a traced picture, pixels.
 const MAX_SIDE: u32 = 16384;
 
-/// A picture of a bake by two passes; `ambient` is the radiance of white paint under [`Lighting::Ambient`].
+/// Traces a picture of a bake by two passes. `ambient` is the radiance of white paint under [`Lighting::Ambient`].
 ///
 /// # Errors
 /// Returns an error if the picture is too large or the user stops it.
@@ -40,7 +40,7 @@ pub fn two_pass(
     })
 }
 
-/// A path-traced picture of a scene.
+/// Traces a picture of a scene by path tracing.
 ///
 /// # Errors
 /// Returns an error if the picture is too large, the lighting is ambient, or the user stops it.

@@ -1,4 +1,4 @@
-//! Which view of a scene is drawn.
+//! The view of a scene that is drawn.
 
 use anyhow::{Context, Result};
 
@@ -17,7 +17,7 @@ pub struct ViewRequest {
 }
 
 impl ViewRequest {
-    /// The view that the options describe.
+    /// Returns the view that the options describe.
     ///
     /// # Errors
     /// Returns an error if the scene has no such camera.
@@ -27,7 +27,8 @@ impl ViewRequest {
     }
 }
 
-/// The camera with this name, else with this index; without either the first, else one that sees the whole scene.
+/// Returns the camera with the given name or, if there is none, the given index. Without either, returns the first
+/// camera, or one with the whole scene in view if the scene has none.
 fn choose_camera(scene: &Scene, wanted: Option<&str>) -> Result<Camera> {
     let Some(wanted) = wanted else {
         return Ok(scene.cameras.first().cloned().unwrap_or_else(|| Camera::framing(scene.bounds())));

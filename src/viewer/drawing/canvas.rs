@@ -1,7 +1,8 @@
-//! The picture of the scene behind the panels. It is drawn anew only if something in it has changed.
+//! The picture of the scene behind the panels. It is redrawn only if something in it has changed.
 //!
-//! Hardware draws every picture finely. A software driver (lavapipe) draws sketches during a movement, with one sample a
-//! pixel and at half the size if the full size takes too long, and a fine picture when the movement has ended.
+//! Hardware draws every picture at full detail. A software driver (lavapipe) draws sketches during a movement: one
+//! sample per pixel, at half the size if the full size takes too long. It draws a fine picture when the movement has
+//! ended.
 
 use std::sync::Arc;
 
@@ -20,11 +21,11 @@ use crate::viewer::solution::traced_view::TracedView;
 /// The difference between the last picture and the next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Change {
-    /// Nothing.
+    /// Nothing has changed.
     None,
-    /// Only the light was uploaded anew.
+    /// Only the light has changed.
     Light,
-    /// The view, the settings or the scene.
+    /// The view, the settings or the scene has changed.
     Content,
 }
 
@@ -47,14 +48,14 @@ struct Picture {
     /// The light samples that were added last.
     batch: Option<SampleBatch>,
     texture: wgpu::Texture,
-    /// The same with the compared shadows, in a split picture.
+    /// The last picture with the compared shadows; `None` unless the picture is split.
     beside: Option<wgpu::Texture>,
-    /// Share of pixels in which the techniques disagree, if the picture is a heat map of them.
+    /// Share of pixels in which the techniques disagree; `None` unless the picture is a heat map of them.
     difference: Option<f32>,
 }
 
 impl Canvas {
-    /// A canvas for targets of `format`.
+    /// Creates a canvas for targets of `format`.
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat) -> Self {
         Self {
@@ -69,7 +70,7 @@ impl Canvas {
         }
     }
 
-    /// Draws a picture that nobody sees as a sketch and as it is at rest, so that a software driver compiles its shaders.
+    /// Draws a hidden picture as a sketch and as it is at rest, so that a software driver compiles its shaders.
     pub fn warm_up(&mut self, gpu: &Gpu) {
         let Some(content) = warm_up_content(gpu) else { return };
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("warm-up") });
@@ -80,7 +81,7 @@ impl Canvas {
         self.forget();
     }
 
-    /// What has to be drawn anew to show `content`.
+    /// Returns what has changed in `content` since the last picture.
     #[must_use]
     pub fn change(&self, content: &PictureContent) -> Change {
         let Some(Picture { content: last, .. }) = &self.picture else { return Change::Content };
@@ -97,7 +98,7 @@ impl Canvas {
         }
     }
 
-    /// Level of detail of the last picture; `None` if there is none.
+    /// Returns the level of detail of the last picture; `None` if there is none.
     #[must_use]
     pub fn detail(&self) -> Option<Detail> {
         self.picture.as_ref().map(|picture| picture.detail)
@@ -109,25 +110,26 @@ impl Canvas {
         self.picture.as_ref().and_then(|picture| picture.batch)
     }
 
-    /// Share of pixels in which the compared shadows disagree; `None` unless the picture is a heat map of them.
+    /// Returns the share of pixels in which the compared shadows disagree; `None` unless the picture is a heat map of
+    /// them.
     #[must_use]
     pub fn difference(&self) -> Option<f32> {
         self.picture.as_ref().and_then(|picture| picture.difference)
     }
 
-    /// The driver draws on the CPU, so that coarser levels of detail are faster.
+    /// Returns true if the driver draws on the CPU. Coarser levels of detail are faster there.
     #[must_use]
     pub fn is_software(&self) -> bool {
         self.renderer.is_software()
     }
 
-    /// The exposure that was metered for the last picture, stops; `None` if its exposure was fixed.
+    /// Returns the exposure that was metered for the last picture, stops; `None` if its exposure was fixed.
     #[must_use]
     pub fn metered_ev(&self, gpu: &Gpu) -> Option<f32> {
         self.picture.as_ref().and_then(|_| self.renderer.metered_ev(gpu))
     }
 
-    /// Notes the time of the last frame, seconds.
+    /// Records the time of the last frame, seconds.
     pub fn note_time(&mut self, seconds: f32) {
         self.renderer.note_time(seconds);
         self.compared_renderer.iter_mut().for_each(|renderer| renderer.note_time(seconds));
@@ -159,7 +161,7 @@ impl Canvas {
         batch: Option<SampleBatch>,
     ) {
         if content.compared_shadows.is_none() {
-            // A comparison that has ended would otherwise keep a scene and its shadow maps.
+            // After a comparison has ended, its renderer would keep a scene and its shadow maps in memory.
             (self.compared_renderer, self.heat_map) = (None, None);
         }
         let (shown, beside) = self.textures(gpu, content.size);
@@ -190,8 +192,8 @@ impl Canvas {
         self.picture = Some(Picture { content, detail, batch, texture: shown, beside, difference });
     }
 
-    /// Textures for the next picture: those of the last one if its size is the same. The second one exists only if the last
-    /// picture had one.
+    /// Returns textures for the next picture: those of the last one if its size is the same. The second is `None` if
+    /// the last picture had none.
     fn textures(&mut self, gpu: &Gpu, size: [u32; 2]) -> (wgpu::Texture, Option<wgpu::Texture>) {
         match self.picture.take().filter(|last| last.content.size == size) {
             Some(last) => (last.texture, last.beside),
@@ -237,13 +239,13 @@ impl Canvas {
         }
     }
 
-    /// Times of the passes of the last picture; empty unless passes are timed.
+    /// Returns the times of the passes of the last picture; empty unless passes are timed.
     #[must_use]
     pub fn laps(&self) -> &Laps {
         &self.laps
     }
 
-    /// Replaces the pixels of the last picture by a traced view; returns false if the sizes differ.
+    /// Replaces the pixels of the last picture by a traced view. Returns false if the sizes differ.
     pub fn show_traced(&mut self, gpu: &Gpu, traced: &TracedView) -> bool {
         let Some(picture) = self.picture.as_mut().filter(|picture| picture.content.size == traced.size) else {
             return false;
@@ -253,8 +255,8 @@ impl Canvas {
         true
     }
 
-    /// Copies the last picture into the top left corner of `target`. In a split picture the part to the right of `divider`, a
-    /// share of the width, has the compared shadows.
+    /// Copies the last picture into the top left corner of `target`. In a split picture the part to the right of
+    /// `divider`, a fraction of the width, has the compared shadows.
     pub fn copy_to(&self, encoder: &mut wgpu::CommandEncoder, target: &wgpu::Texture, divider: f32) {
         let Some(Picture { texture, beside, .. }) = &self.picture else { return };
         let [width, height] = [texture.width().min(target.width()), texture.height().min(target.height())];

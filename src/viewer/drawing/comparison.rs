@@ -13,7 +13,7 @@ pub struct DifferenceHeatMap {
 }
 
 impl DifferenceHeatMap {
-    /// Makes the passes; they serve every scene.
+    /// Creates the passes, which can draw any scene.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
         Self { comparison: ShadowComparison::new(gpu) }

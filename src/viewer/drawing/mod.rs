@@ -1,5 +1,5 @@
-//! What draws the picture: the canvas with the last picture, the renderers behind it, heat maps of compared shadows, and
-//! pictures for files.
+//! Drawing of the picture: the canvas with the last picture, its renderers, heat maps of compared shadows, and pictures
+//! for files.
 //!
 //! Deliberately absent: passes; every picture is drawn by [`crate::render`].
 

@@ -17,10 +17,10 @@ use crate::viewer::solution::file_names::next_free_name;
 use crate::viewer::solution::solved::SolvedScene;
 use crate::viewer::solution::traced_view::TracedViewRequest;
 
-/// The next free name of a picture in `folder`.
+/// Returns the next free name of a picture in `folder`.
 ///
 /// # Errors
-/// Returns an error if `folder` holds a thousand pictures already.
+/// Returns an error if all 999 names are taken.
 pub fn next_path(folder: &Path, settings: &PictureSettings) -> anyhow::Result<PathBuf> {
     next_free_name(folder, "hemicube", settings.ending())
         .context("there are a thousand pictures in this folder already")
@@ -41,7 +41,7 @@ pub fn drawn(
     Ok(draw_picture(gpu, &PictureRequest { shadows: Some(&scene.shadows), ..request }, SAMPLES)?)
 }
 
-/// Traces the view with `num_rays` rays a pixel; `None` if it was cancelled.
+/// Traces the view with `num_rays` rays per pixel; `None` if it was cancelled.
 #[must_use]
 pub fn traced(
     solved: &SolvedScene,

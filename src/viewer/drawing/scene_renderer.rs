@@ -1,4 +1,4 @@
-//! Draws a picture of the scene at the wanted level of detail.
+//! Draws pictures of the scene at each level of detail.
 
 use std::sync::Arc;
 
@@ -7,7 +7,7 @@ use crate::render::{MeteredExposure, Metering, PictureRequest, Renderer};
 use crate::viewer::picture::content::{Detail, PictureContent};
 use crate::viewer::software::software_renderer::SoftwareRenderer;
 
-/// Samples a pixel of a fine picture.
+/// Samples per pixel of a fine picture.
 pub const SAMPLES: u32 = 4;
 
 /// Draws pictures into textures of one format.
@@ -15,9 +15,9 @@ pub struct SceneRenderer {
     fine: Renderer,
     /// Renderer of the coarse levels of detail on a software driver; `None` on hardware.
     software: Option<SoftwareRenderer>,
-    /// Times passes while the panels show their times.
+    /// Times the passes; `None` unless the panels show the times.
     stopwatch: Option<Arc<Stopwatch>>,
-    /// The last picture was a sketch.
+    /// True if the last picture was a sketch.
     is_moving: bool,
 }
 
@@ -30,8 +30,8 @@ impl SceneRenderer {
         Self { fine, software, stopwatch: None, is_moving: false }
     }
 
-    /// A renderer for textures of `format` that takes the exposure of the pictures that `other` draws at the same level of
-    /// detail.
+    /// Creates a renderer for textures of `format`. Its exposure is that of the pictures that `other` draws at the same
+    /// level of detail.
     #[must_use]
     pub fn following(gpu: &Gpu, format: wgpu::TextureFormat, other: &Self) -> Self {
         let follow =
@@ -44,20 +44,21 @@ impl SceneRenderer {
         }
     }
 
-    /// The driver draws on the CPU, so that coarser levels of detail are faster.
+    /// Returns true if the driver draws on the CPU. Coarser levels of detail are faster there.
     #[must_use]
     pub fn is_software(&self) -> bool {
         self.software.is_some()
     }
 
-    /// The exposure that was metered for the last picture, stops; `None` if its exposure was fixed or the device is lost.
+    /// Returns the exposure that was metered for the last picture, stops; `None` if its exposure was fixed or the
+    /// device is lost.
     #[must_use]
     pub fn metered_ev(&self, gpu: &Gpu) -> Option<f32> {
         // The next frame reports a lost device.
         self.fine.metered_ev(gpu).ok().flatten()
     }
 
-    /// Notes the time of the last picture, seconds: it decides the size of sketches.
+    /// Records the time of the last picture, seconds, from which the size of sketches is chosen.
     pub fn note_time(&mut self, seconds: f32) {
         self.software.iter_mut().filter(|_| self.is_moving).for_each(|software| software.note_time(seconds));
     }
@@ -88,7 +89,7 @@ impl SceneRenderer {
         }
     }
 
-    /// Adds part of the direct light of the next fine picture; draws nothing.
+    /// Adds part of the direct light of the next fine picture, without drawing the picture.
     pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, content: &PictureContent) {
         let request = PictureRequest { stopwatch: self.stopwatch.as_deref(), ..content.request() };
         self.fine.add_light(gpu, encoder, &request);

@@ -1,4 +1,4 @@
-//! What a picture of the viewer shows, and its level of detail.
+//! The content of a picture of the viewer, and its level of detail.
 
 use std::sync::Arc;
 
@@ -10,11 +10,11 @@ use crate::viewer::settings::comparison::ComparedShadows;
 /// Level of detail of a picture, from coarse to fine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Detail {
-    /// During a movement on a software driver: one sample a pixel, at half the size if that is faster.
+    /// During a movement on a software driver: one sample per pixel, at half the size if that is faster.
     Sketch,
-    /// At rest during a bake on a software driver: one sample a pixel.
+    /// At rest during a bake on a software driver: one sample per pixel.
     Plain,
-    /// Several samples a pixel.
+    /// Several samples per pixel.
     Fine,
     /// Traced by rays.
     Traced,
@@ -27,22 +27,22 @@ pub struct PictureContent {
     pub scene: Arc<SceneBuffers>,
     /// The casters and lights of the scene.
     pub shadows: Arc<ShadowScene>,
-    /// Version of the light in `scene`: it rises by one with each upload.
+    /// Version of the light in `scene`. It increases by one with each upload.
     pub light: u32,
     /// The view.
     pub view: View,
     /// The render settings.
     pub settings: RenderSettings,
-    /// Other shadows that those of `settings` are compared with.
+    /// Second shadows of a comparison; `None` if the shadows of `settings` are not compared.
     pub compared_shadows: Option<ComparedShadows>,
     /// Marks over the picture.
     pub overlay: Option<Arc<Overlay>>,
-    /// Pixels across and down.
+    /// Width and height, pixels.
     pub size: [u32; 2],
 }
 
 impl PictureContent {
-    /// The request that draws it, without its overlay.
+    /// Returns the request that draws the content, without its overlay.
     #[must_use]
     pub fn request(&self) -> PictureRequest<'_> {
         PictureRequest {
@@ -56,14 +56,14 @@ impl PictureContent {
         }
     }
 
-    /// The same content with other shadows.
+    /// Returns the content with other shadows.
     #[must_use]
     pub fn with_shadows(&self, shadows: &ShadowSettings) -> Self {
         let settings = RenderSettings { shadows: Some(shadows.clone()), ..self.settings.clone() };
         Self { settings, ..self.clone() }
     }
 
-    /// The same content lit by one batch of the light samples, or by all of them.
+    /// Returns the content lit by one batch of the light samples, or by all of them.
     #[must_use]
     pub fn with_batch(&self, batch: Option<SampleBatch>) -> Self {
         let mut content = self.clone();
@@ -76,12 +76,12 @@ impl PictureContent {
 
 /// The next picture to draw.
 pub struct NextPicture {
-    /// What it shows.
+    /// Content of the picture.
     pub content: PictureContent,
-    /// Its level of detail.
+    /// Level of detail of the picture.
     pub detail: Detail,
-    /// The light samples that it adds, if they come in batches.
+    /// Light samples that the picture adds, if they are added in batches.
     pub batch: Option<SampleBatch>,
-    /// The batch is not complete with it: the picture does not change yet.
+    /// True if the batch is still incomplete. The shown picture then does not change yet.
     pub is_partial: bool,
 }

@@ -35,7 +35,7 @@ const UNSEEN: [u8; 4] = [24, 24, 28, 170];
 const HEAT_DECADES: f32 = 3.0;
 
 impl Marks {
-    /// Adds the wire; that of patches needs a solved scene.
+    /// Adds the wireframe. That of patches requires a solved scene.
     pub fn wire(&mut self, wire: Wire, scene: &Scene, solved: Option<&SolvedScene>) {
         let patch_of = |t: usize| solved.and_then(|solved| solved.mesh.elements.get(t)).map(|element| element.patch);
         let part_of = |t: usize| match wire {
@@ -90,7 +90,7 @@ impl Marks {
         }
     }
 
-    /// There are no marks.
+    /// Returns true if there are no marks.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.lines.is_empty() && self.triangles.is_empty()
@@ -105,8 +105,8 @@ fn mark(position: Vec3, colour: [u8; 4]) -> Mark {
     Mark { position, colour }
 }
 
-/// Edges of `triangles` between two parts, and edges of a single triangle, each once. Corners with equal positions are the
-/// same.
+/// Returns each edge between two parts, and each edge of only one triangle, once. Corners with equal positions count as
+/// one.
 fn borders(
     scene: &Scene,
     triangles: impl Iterator<Item = TriangleId>,

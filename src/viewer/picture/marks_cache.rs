@@ -1,4 +1,4 @@
-//! Keeps the marks on the device until they change.
+//! Caches the marks on the device until they change.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -13,13 +13,13 @@ use crate::viewer::settings::view::Wire;
 use crate::viewer::solution::patch_view::{ChosenPatchView, heat};
 use crate::viewer::solution::solved::SolvedScene;
 
-/// What is marked in the picture.
+/// Selection of what is marked in the picture.
 pub struct MarkSelection<'a> {
     /// The triangles that are drawn.
     pub scene: &'a Arc<Scene>,
-    /// Their light, if it is solved.
+    /// The solved light of the scene, if there is any.
     pub solved: Option<&'a Arc<SolvedScene>>,
-    /// The wire.
+    /// The wireframe.
     pub wire: Wire,
     /// Tinted instances.
     pub instances: BTreeSet<InstanceId>,
@@ -31,7 +31,7 @@ pub struct MarkSelection<'a> {
     pub shooter: Option<PatchId>,
 }
 
-/// Identity of a [`MarkSelection`]; addresses stand for what they point to.
+/// Key of a [`MarkSelection`] in the cache. References are compared by their address.
 type Key = (usize, usize, Wire, BTreeSet<InstanceId>, Option<usize>, usize, Option<PatchId>);
 
 /// The last marks.
@@ -41,7 +41,7 @@ pub struct MarksCache {
 }
 
 impl MarksCache {
-    /// The marks on the device; `None` if nothing is marked.
+    /// Returns the marks on the device; `None` if nothing is marked.
     pub fn overlay(&mut self, gpu: &Gpu, selection: &MarkSelection<'_>) -> Option<Arc<Overlay>> {
         let key = selection.key();
         if let Some((last, overlay)) = &self.last

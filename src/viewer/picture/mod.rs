@@ -1,4 +1,4 @@
-//! What a picture of the scene shows: its content, the marks over it, and the scene on the device.
+//! The content of a picture of the scene, the marks over it, and the scene on the device.
 
 pub mod content;
 

@@ -2,7 +2,7 @@
 
 use crate::gpu::Gpu;
 
-/// A texture that a picture is drawn into and copied from.
+/// Creates a texture that a picture can be drawn into and copied from.
 pub fn new_texture(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> wgpu::Texture {
     gpu.device.create_texture(&wgpu::TextureDescriptor {
         label: Some("picture"),
@@ -19,12 +19,12 @@ pub fn new_texture(gpu: &Gpu, size: [u32; 2], format: wgpu::TextureFormat) -> wg
     })
 }
 
-/// A view of the whole texture.
+/// Returns a view of the whole texture.
 pub fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
     texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
-/// Writes RGBA bytes as displayed over the whole of a texture.
+/// Overwrites a texture with RGBA bytes as displayed.
 pub fn write(gpu: &Gpu, texture: &wgpu::Texture, display: &[u8]) {
     let is_bgra = matches!(texture.format(), wgpu::TextureFormat::Bgra8Unorm | wgpu::TextureFormat::Bgra8UnormSrgb);
     let swapped: Vec<u8>;

@@ -7,7 +7,7 @@ use crate::render::ShadowScene;
 use crate::render::scene::SceneBuffers;
 use crate::scene::Scene;
 
-/// A scene and what the device holds of it.
+/// A scene and its buffers on the device.
 #[derive(Clone)]
 pub struct UploadedScene {
     /// The triangles that are drawn: those of the file, or the elements of a bake.
@@ -19,7 +19,7 @@ pub struct UploadedScene {
 }
 
 impl UploadedScene {
-    /// Drops what shaders have drawn and later pictures would reuse: shadow maps, and the light in tiles.
+    /// Drops cached results of shaders: shadow maps, and the light in tiles.
     pub fn forget_drawn(&mut self, gpu: &Gpu) {
         self.buffers.forget_tiles();
         self.shadows = Arc::new(ShadowScene::new(gpu, Arc::clone(&self.scene)));

@@ -2,21 +2,21 @@
 
 use crate::render::ShadowSettings;
 
-/// Shadows that those of the picture are compared with.
+/// The second shadows of a comparison.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ComparedShadows {
-    /// How they are computed.
+    /// Technique and settings of the second shadows.
     pub settings: ShadowSettings,
-    /// How the two are laid out.
+    /// Layout of the comparison.
     pub layout: ComparisonLayout,
 }
 
-/// How two shadow techniques are shown in one picture.
+/// Layout of two shadow techniques in one picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ComparisonLayout {
-    /// One left and one right of a divider.
+    /// One technique to the left and one to the right of a divider.
     #[default]
     Split,
-    /// A heat map of the pixels in which they disagree.
+    /// A heat map of the pixels in which the techniques disagree.
     Difference,
 }

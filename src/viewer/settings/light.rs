@@ -1,4 +1,4 @@
-//! How the light of the scene is shown, and the render settings that follow from it.
+//! Settings of how the light of the scene is shown, and the render settings that follow from them.
 
 use glam::Vec3;
 
@@ -9,7 +9,7 @@ use crate::viewer::settings::comparison::{ComparedShadows, ComparisonLayout};
 
 /// Change of the exposure by one key press, stops.
 const EV_STEP: f32 = 1.0 / 3.0;
-/// Radiance of white surfaces before any light is computed.
+/// Radiance of white surfaces in ambient light, before any light is computed.
 const WORK_LIGHT: Vec3 = Vec3::splat(1.0);
 
 /// Shadings with their names and hints, in the order of [`LightSettings::next_shading`].
@@ -24,31 +24,32 @@ pub const SHADINGS: [(Shading, &str, &str); 5] = [
 /// How the light of the scene is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightSettings {
-    /// The exposure is metered from the picture.
+    /// True if the exposure is metered from the picture.
     pub is_auto: bool,
     /// Exposure if it is not metered, stops.
     pub ev: f32,
     /// Mapping of radiance to display colours.
     pub tone_map: ToneMap,
-    /// What is shown of the surfaces.
+    /// Quantity that is shown on the surfaces.
     pub shading: Shading,
     /// Illuminance of each false colour.
     pub lux_scale: LuxScale,
-    /// Direct light is shown.
+    /// True if direct light is shown.
     pub direct: bool,
-    /// Light after at least one reflection is shown.
+    /// True if indirect light (after at least one reflection) is shown.
     pub indirect: bool,
-    /// Backs of single-sided surfaces are culled, so that rooms can be seen from outside.
+    /// True if backs of single-sided surfaces are culled. Rooms can then be seen from outside.
     pub see_through_backs: bool,
-    /// Direct light is computed from the lamps in each picture, with `shadows`, instead of read from the bake.
+    /// True if direct light is real-time light: computed from the lamps in each picture, with `shadows`, instead of
+    /// read from the bake.
     pub is_real_time: bool,
     /// Shadow technique and its settings.
     pub shadows: ShadowSettings,
-    /// The technique that they are compared with, without its faults.
+    /// Technique that `shadows` are compared with, without its faults; `None` if nothing is compared.
     pub compared_technique: Option<ShadowTechnique>,
-    /// How the two are laid out.
+    /// Layout of the comparison.
     pub comparison_layout: ComparisonLayout,
-    /// Position of the divider of a split picture, as a share of its width.
+    /// Position of the divider of a split picture, as a fraction of its width.
     pub divider: f32,
     /// The debug view of the shadows, if one is shown.
     pub debug: Option<DebugView>,
@@ -67,7 +68,7 @@ pub struct GroupDial {
     pub intensity: f32,
     /// Colour factor, linear; white leaves the light as baked.
     pub tint: Vec3,
-    /// The group is switched on.
+    /// True if the group is switched on.
     pub is_on: bool,
 }
 
@@ -96,12 +97,12 @@ impl Default for LightSettings {
 }
 
 impl LightSettings {
-    /// Makes a dial for each light group of the scene, all as baked.
+    /// Creates a dial for each light group of the scene, all as baked.
     pub fn reset_groups(&mut self, scene: &Scene) {
         self.groups = scene.light_groups.iter().map(|name| GroupDial::of(name)).collect();
     }
 
-    /// Fixes the exposure at the metered one.
+    /// Fixes the exposure at the metered value.
     pub fn fix_exposure(&mut self, metered_ev: Option<f32>) {
         if std::mem::take(&mut self.is_auto) {
             self.ev = metered_ev.unwrap_or(self.ev);
@@ -127,7 +128,7 @@ impl LightSettings {
         };
     }
 
-    /// The shadows that those of the picture are compared with: of the same light samples by another technique.
+    /// Returns the second shadows of the comparison: the same light samples with another technique.
     #[must_use]
     pub fn compared_shadows(&self) -> Option<ComparedShadows> {
         let technique = self.compared_technique.filter(|_| self.is_real_time)?;
@@ -136,13 +137,13 @@ impl LightSettings {
         Some(ComparedShadows { settings, layout: self.comparison_layout })
     }
 
-    /// Two techniques are shown, one on each side of a divider.
+    /// Returns true if two techniques are shown, one on each side of a divider.
     #[must_use]
     pub fn is_split(&self) -> bool {
         self.is_real_time && self.compared_technique.is_some() && self.comparison_layout == ComparisonLayout::Split
     }
 
-    /// The render settings of the picture. Without light, an even ambient light shows the scene.
+    /// Returns the render settings of the picture. A scene without light is shown in uniform ambient light.
     #[must_use]
     pub fn render_settings(&self, is_lit: bool) -> RenderSettings {
         RenderSettings {
@@ -166,19 +167,19 @@ impl LightSettings {
 }
 
 impl GroupDial {
-    /// The dial of the group called `name`, as baked.
+    /// Creates the dial of the group `name`, as baked.
     #[must_use]
     pub fn of(name: &str) -> Self {
         Self { name: name.to_owned(), intensity: 1.0, tint: Vec3::ONE, is_on: true }
     }
 
-    /// Factor on the baked light, per channel.
+    /// Returns the factor on the baked light, per channel.
     #[must_use]
     pub fn weight(&self) -> Vec3 {
         if self.is_on { self.tint * self.intensity } else { Vec3::ZERO }
     }
 
-    /// The light is as baked.
+    /// Returns true if the light is as baked.
     #[must_use]
     pub fn is_as_baked(&self) -> bool {
         self.weight() == Vec3::ONE

@@ -1,4 +1,4 @@
-//! What the user sets in the panels and with keys: plain values that the panels edit and everything else reads.
+//! Settings that the user changes in the panels and with keys: plain values that the panels edit and other parts read.
 
 pub mod comparison;
 pub mod view;

@@ -3,11 +3,11 @@
 /// Size, format and method of a large picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 pub struct PictureSettings {
-    /// Pixels across and down.
+    /// Width and height, pixels.
     pub size: [u32; 2],
-    /// Linear radiance as .exr instead of display colours as .png.
+    /// True for linear radiance as .exr, false for display colours as .png.
     pub is_exr: bool,
-    /// Rays a pixel; 0 draws the picture by rasterisation.
+    /// Rays per pixel; 0 draws the picture by rasterisation.
     pub num_rays: u32,
 }
 
@@ -18,7 +18,7 @@ impl Default for PictureSettings {
 }
 
 impl PictureSettings {
-    /// Ending of the file name.
+    /// Returns the extension of the file name.
     #[must_use]
     pub fn ending(&self) -> &'static str {
         if self.is_exr { "exr" } else { "png" }

@@ -1,4 +1,5 @@
-//! What is shown beside and over the picture: pages, wire, selection, located advice, moments of a recorded bake.
+//! Settings of what is shown beside and over the picture: pages, wire, selection, located advice, moments of a recorded
+//! bake.
 
 use std::collections::BTreeSet;
 
@@ -26,10 +27,10 @@ pub const TABS: [(Tab, &str, &str); 4] = [
     (Tab::Place, "Place", "Cameras, objects, output, files"),
 ];
 
-/// The wire that is drawn over the picture.
+/// Wireframe over the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 pub enum Wire {
-    /// No wire.
+    /// No wireframe.
     #[default]
     None,
     /// Edges of all elements.
@@ -41,11 +42,11 @@ pub enum Wire {
 /// Instances that are hidden or selected.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Selection {
-    /// Instances that are not drawn; their light and shadows stay as baked.
+    /// Instances that are not drawn. Their light and shadows stay as baked.
     pub hidden: BTreeSet<InstanceId>,
     /// The instance that is tinted in the picture.
     pub chosen: Option<InstanceId>,
-    /// Lists show only names that contain this text.
+    /// Filter of lists, which show only names that contain this text.
     pub filter: String,
 }
 
@@ -61,7 +62,7 @@ pub struct AdviceLocation {
 /// The moment of a recorded bake whose light is shown.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct ReplaySettings {
-    /// The moment is shown instead of the finished light.
+    /// True if the moment is shown instead of the finished light.
     pub is_on: bool,
     /// Index of the moment.
     pub moment: usize,

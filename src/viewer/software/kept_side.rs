@@ -1,7 +1,7 @@
 //! The side panel as it was painted last.
 //!
-//! On a software driver its hundreds of glyphs take longer than the picture. During a walk they do not change, so the last
-//! painting is copied.
+//! On a software driver the hundreds of glyphs of the panel take longer than the picture. They do not change during a
+//! walk, so the cached painting is copied.
 
 use egui::epaint::Primitive;
 use egui::{ClippedPrimitive, Rect};
@@ -18,7 +18,7 @@ pub struct KeptSide {
 }
 
 struct Painted {
-    /// As large as the window.
+    /// Texture of the size of the window.
     texture: wgpu::Texture,
     shapes: Vec<ClippedPrimitive>,
     pixels_per_point: f32,
@@ -57,7 +57,7 @@ impl KeptSide {
         paint(painter, pass, &mut panels.primitives, &screen, |clip| !is_inside(clip));
     }
 
-    /// The last painting shows these panels.
+    /// Returns true if the last painting shows these panels.
     fn shows(&self, size: [u32; 2], panels: &PanelShapes, is_inside: impl Fn(&Rect) -> bool) -> bool {
         let Some(Painted { texture, shapes, pixels_per_point }) = &self.painted else { return false };
         let inside = panels.primitives.iter().filter(|shape| is_inside(&shape.clip_rect));
@@ -76,7 +76,8 @@ fn is_same(a: &ClippedPrimitive, b: &ClippedPrimitive) -> bool {
     }
 }
 
-/// Paints the shapes whose clip rectangle `is_wanted` returns true for; egui skips shapes that are clipped to nothing.
+/// Paints the shapes for whose clip rectangle `is_wanted` returns true. The others are clipped to nothing, and egui
+/// skips them.
 fn paint(
     painter: &egui_wgpu::Renderer,
     pass: wgpu::RenderPass<'_>,

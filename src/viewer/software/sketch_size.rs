@@ -1,15 +1,17 @@
-//! The size of pictures of a movement on a software driver: full size if they are done in time, else half the width and
-//! height if that helps.
+//! The size of pictures of a movement on a software driver: full size if a picture is fast enough, else half the width
+//! and height if that is faster.
 
 /// Longest time of a full-size picture, seconds; slower ones are halved.
 const SLOWEST: f32 = 0.016;
-/// Largest time of half-size pictures, as a share of that of full ones, at which halving pays.
+/// Half size is used if its pictures take less than this fraction of the time of full-size ones.
 const GAIN: f32 = 0.9;
 /// Factor on both limits for a change of the size, so that it does not change back and forth.
 const CAUTION: f32 = 0.9;
-/// One of so many half-size pictures is full-size, to measure its time again; a size is kept for at least as many.
+/// Number of half-size pictures after which one is drawn at full size, to measure its time again. A size is kept for at
+/// least as many pictures.
 const PROBE: u32 = 60;
-/// Share of the newest picture in the mean: if it is slower, which may have other reasons, and if it is faster.
+/// Weight of the newest picture in the mean, if it is slower and if it is faster. A slow picture may have other
+/// reasons, so its weight is smaller.
 const SMOOTHING: [f32; 2] = [0.2, 0.5];
 
 /// Chooses the size by the times of the pictures so far.
@@ -25,9 +27,9 @@ pub struct SketchSize {
 /// Times of the pictures of one size.
 #[derive(Debug, Default)]
 struct Times {
-    /// There was a first picture. Its time does not count, because it allocates what the next ones reuse.
+    /// True after the first picture. Its time does not count, because it allocates what the next ones reuse.
     is_warm: bool,
-    /// Mean of the other pictures, seconds.
+    /// Mean time of the other pictures, seconds.
     mean: Option<f32>,
 }
 
@@ -41,13 +43,13 @@ impl Times {
 }
 
 impl SketchSize {
-    /// The next picture of a movement is drawn at full size.
+    /// Returns true if the next picture of a movement is drawn at full size.
     #[must_use]
     pub fn is_full(&self) -> bool {
         !self.is_halved || self.num_pictures % PROBE == PROBE - 1
     }
 
-    /// Notes the time of a picture of a movement, seconds.
+    /// Records the time of a picture of a movement, seconds.
     pub fn note(&mut self, seconds: f32) {
         let times = if self.is_full() { &mut self.full } else { &mut self.half };
         times.note(seconds);
@@ -66,7 +68,8 @@ impl SketchSize {
 mod tests {
     use super::*;
 
-    /// The share of full-size pictures among the last hundred of 300 if one takes `full` seconds and a half-size one `half`.
+    /// Draws 300 pictures that take `full` or `half` seconds, by their size. Returns the share of full-size pictures
+    /// among the last hundred.
     fn share_of_full(size: &mut SketchSize, full: f32, half: f32) -> f32 {
         let mut next = || {
             let is_full = size.is_full();

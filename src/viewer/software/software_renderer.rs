@@ -1,4 +1,4 @@
-//! Pictures on a software driver: one sample a pixel, and during movement half the size if that is faster.
+//! Pictures on a software driver: one sample per pixel, and during a movement half the size if that is faster.
 
 use wgpu::util::{TextureBlitter, TextureBlitterBuilder};
 
@@ -7,19 +7,19 @@ use crate::render::{Metering, PictureRequest, Renderer};
 use crate::viewer::picture::texture::{new_texture, view_of};
 use crate::viewer::software::sketch_size::SketchSize;
 
-/// Draws pictures with one sample a pixel into textures of one format.
+/// Draws pictures with one sample per pixel into textures of one format.
 pub struct SoftwareRenderer {
     format: wgpu::TextureFormat,
     renderer: Renderer,
     /// Enlarges half-size sketches.
     blitter: TextureBlitter,
-    /// The target of half-size sketches, and its size.
+    /// Target of half-size sketches, and its size.
     target: Option<(wgpu::TextureView, [u32; 2])>,
     sketch_size: SketchSize,
 }
 
 impl SoftwareRenderer {
-    /// A renderer for textures of `format`, with an automatic exposure from `metering`.
+    /// Creates a renderer for textures of `format`, with an automatic exposure from `metering`.
     #[must_use]
     pub fn new(gpu: &Gpu, format: wgpu::TextureFormat, metering: Metering<'_>) -> Self {
         let renderer = Renderer::with_metering(gpu, format, 1, metering);
@@ -27,13 +27,13 @@ impl SoftwareRenderer {
         Self { format, renderer, blitter, target: None, sketch_size: SketchSize::default() }
     }
 
-    /// The renderer of one sample a pixel.
+    /// Returns the renderer with one sample per pixel.
     #[must_use]
     pub fn renderer(&self) -> &Renderer {
         &self.renderer
     }
 
-    /// Notes the time of the last picture of a movement, seconds.
+    /// Records the time of the last picture of a movement, seconds.
     pub fn note_time(&mut self, seconds: f32) {
         self.sketch_size.note(seconds);
     }

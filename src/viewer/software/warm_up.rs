@@ -1,5 +1,5 @@
-//! A small picture that nobody sees, drawn before the first one that is shown: a software driver compiles shaders when they
-//! first draw, which would otherwise interrupt the first movement.
+//! A small hidden picture that is drawn before the first shown one. A software driver compiles shaders when they first
+//! draw, which would otherwise interrupt the first movement.
 
 use std::sync::Arc;
 
@@ -10,10 +10,10 @@ use crate::render::{RenderSettings, ShadowScene, View};
 use crate::scene::builtin;
 use crate::viewer::picture::content::PictureContent;
 
-/// Width and height, pixels. They are not powers of two, for which drivers may compile other shaders.
+/// Width and height, pixels. For powers of two drivers may compile other shaders, so they are none.
 const SIZE: [u32; 2] = [90, 60];
 
-/// The Cornell box without light.
+/// Returns the content of the picture: the Cornell box without light.
 #[must_use]
 pub fn warm_up_content(gpu: &Gpu) -> Option<PictureContent> {
     let dark = BakedScene::dark(builtin::cornell());
