@@ -1,4 +1,4 @@
-//! All tests that go through the public door, in one binary.
+//! All tests of the public interface, in one binary.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod support;

@@ -9,7 +9,7 @@ fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-/// Path relative to the root and text of each Markdown file.
+/// Returns the path, relative to the root, and the text of each Markdown file.
 fn documents() -> Vec<(PathBuf, String)> {
     let folders = ["docs", "assets", "fuzz", "examples", "scripts"].map(|folder| root().join(folder));
     let mut files: Vec<PathBuf> =
@@ -20,13 +20,14 @@ fn documents() -> Vec<(PathBuf, String)> {
     files.iter().map(|path| (relative(path), std::fs::read_to_string(path).expect("it is text"))).collect()
 }
 
-/// Targets of the links and pictures of a document that are files.
+/// Returns the targets of links and pictures of a document that are files.
 fn linked_files(text: &str) -> impl Iterator<Item = &str> {
     let targets = text.split("](").skip(1).filter_map(|rest| rest.split([')', ' ', '#']).next());
     targets.filter(|target| !target.is_empty() && !target.contains(':'))
 }
 
-/// Words of code that are a path with a folder and lead to a source file or, with a slash at their end, to a folder.
+/// Returns the words in code style that are paths: they contain a folder and end in a source file, or in a slash for a
+/// folder.
 fn named_sources(text: &str) -> impl Iterator<Item = &str> {
     let code = text.split('`').skip(1).step_by(2);
     let is_path = |word: &&str| word.chars().all(|c| c.is_alphanumeric() || "/._-".contains(c));

@@ -1,4 +1,4 @@
-//! Lightmaps: the files of the program, and the light of the texture against the light at the vertices.
+//! Lightmaps: the files that the program writes, and the light of the texture compared with the light at the vertices.
 
 use std::path::Path;
 use std::process::Command;
@@ -20,8 +20,8 @@ fn the_texture_shows_the_light_at_the_vertices() {
     let size = settings.mesh_settings(&scene).element_size;
     let map = lightmap(&scene, &bake.mesh, &bake.baked.light, &LightmapSettings::for_elements(size)).expect("it fits");
 
-    // At random places of every element: the light between its vertices, and that of the texture, found by way of the
-    // large triangle that the element is a part of.
+    // Compares, at random points of every element, the light interpolated between its vertices with the light of the
+    // texture. Texture coordinates come from the large triangle that contains the element.
     let (mut deviations, mut mean) = (Vec::new(), 0.0);
     for (e, element) in bake.mesh.elements.iter().enumerate() {
         let corners = bake.mesh.corners(element);
@@ -83,7 +83,7 @@ fn the_file_names_its_texture_and_its_brightness() {
         .sum();
     assert_eq!(num_triangles, scene.triangles.len());
 
-    // Every lit material names the texture, the second set of coordinates, and the light of its white.
+    // Every lit material refers to the texture, the second set of coordinates, and the light that white stands for.
     let told: Vec<_> = file
         .materials()
         .filter_map(|material| material.extension_value("MOZ_lightmap").cloned())
@@ -105,7 +105,7 @@ fn the_file_names_its_texture_and_its_brightness() {
         assert!(bytemuck::pod_collect_to_vec::<u8, f32>(bytes).iter().all(inside));
     }
 
-    // The picture in the file and the one in lux beside it are the same light.
+    // The texture in the file and the one in lux beside it hold the same light.
     let lux = image::open(folder.path().join("lit-lightmap.exr")).expect("an EXR").into_rgb32f();
     assert_eq!(lux.dimensions(), picture.dimensions());
     let white = 2.0 * intensity;

@@ -1,4 +1,4 @@
-//! Caustics of mirrors and panes: against closed forms, and two passes against paths.
+//! Caustics of mirrors and panes: compared with closed forms, and two passes compared with path tracing.
 
 use std::f32::consts::PI;
 
@@ -16,7 +16,7 @@ use hemicube::trace::Tracer;
 use crate::support::quads::{Quads, paint, slot, square_camera, texture};
 use crate::support::scenes::{glowing, with_groups};
 
-/// Mean radiance of a picture.
+/// Computes the mean radiance of a picture.
 fn mean(film: &Film) -> Vec3 {
     let radiance = film.radiance();
     radiance.iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).sum::<Vec3>() / radiance.len() as f32
@@ -37,7 +37,7 @@ fn silver() -> Material {
     Material { metallic: 1.0, roughness: 0.0, ..paint(Vec3::splat(0.9)) }
 }
 
-/// A lamp that faces away from a square, and a mirror above both.
+/// Builds a lamp that faces away from a square, and a mirror above both.
 fn lamp_in_a_mirror() -> Quads {
     let mut quads = Quads::square(paint(Vec3::splat(0.05)), Vec3::ZERO);
     let lamp = Material { emission: Vec3::splat(5.0), group: Some(GroupId(0)), ..paint(Vec3::ZERO) };
@@ -52,7 +52,7 @@ fn lamp_in_a_mirror() -> Quads {
 #[test]
 fn a_mirror_reflects_the_light_of_a_lamp_on_to_a_square_behind_the_lamp() {
     let quads = lamp_in_a_mirror();
-    // Mean over the square of the form factor to the lamp's image, by the midpoint rule.
+    // The form factor to the lamp's image is averaged over the square by the midpoint rule.
     let image = [(3.0, -0.5), (3.0, 0.5), (4.0, 0.5), (4.0, -0.5)].map(|(x, y)| Vec3::new(x, y, 3.0));
     let steps = 40;
     let at = |i: i32| Vec3::new((i % steps) as f32 + 0.5, (i / steps) as f32 + 0.5, 0.0) * (2.0 / steps as f32);
@@ -64,8 +64,8 @@ fn a_mirror_reflects_the_light_of_a_lamp_on_to_a_square_behind_the_lamp() {
         ("final gather", second_pass(&quads, Ambient::Indirect { final_gather: 1 })),
         ("paths", by_paths(&quads.baked.scene, 4096)),
     ] {
-        // Metal reflects a little more at an angle, 0.1 (1 - cos)^5, and shows the square to itself: less than 1 % of
-        // 0.9.
+        // Metal reflects a little more at an angle, 0.1 (1 - cos)^5, and reflects light of the square back to it.
+        // Together this is less than 1 % of 0.9.
         assert!(found.x > 0.985 * exact && found.x < 1.02 * exact, "{name}: {found} for {exact}");
     }
     assert_eq!(second_pass(&quads, Ambient::None), Vec3::ZERO);
@@ -83,7 +83,7 @@ fn the_highlight_of_a_small_lamp_in_rough_metal_has_little_noise() {
         let tracer = Tracer::new(&quads.baked.scene);
         two_pass(&tracer, &quads.baked, &square_camera(), [16; 2], &settings, &Unwatched)
     };
-    // Over stored light, which is none here, lamps are met by chance only.
+    // With `Ambient::All` rays hit lamps by chance only. There is no stored light here.
     let chance = film(Ambient::All, 4096);
     let paths = path_traced(
         &Tracer::new(&quads.baked.scene),
@@ -132,7 +132,7 @@ fn a_lamp_shines_through_a_pane() {
     assert!((found.direct.x / exact - 1.0).abs() < 1e-3, "{found:?} for {exact}");
 }
 
-/// A closed room with a lamp, one wall of which is a mirror and one half of whose floor lies under a pane.
+/// Builds a closed room with a lamp. One wall is a mirror, and half of the floor lies under a pane.
 fn room_with_a_mirror() -> Scene {
     let mut builder = SceneBuilder::default();
     let white = builder.material(glowing(Vec3::new(0.7, 0.6, 0.5), Vec3::ZERO));
@@ -168,7 +168,7 @@ fn two_passes_equal_paths_in_a_room_with_mirrors_and_panes() {
 
 #[test]
 fn a_normal_map_tilts_the_surface_towards_the_light() {
-    // Texels that lean by 36.9 degrees to the right and up.
+    // Normals of the texels are tilted by 36.9 degrees, to the right and up.
     for (texel, lean) in
         [([204, 128, 230, 255], Vec3::new(0.6, 0.0, 0.8)), ([128, 204, 230, 255], Vec3::new(0.0, 0.6, 0.8))]
     {

@@ -1,4 +1,4 @@
-//! Ray tracing against closed forms (furnaces, form factors, mirrors, panes) and against the bake.
+//! Ray tracing compared with closed forms (furnaces, form factors, mirrors, panes) and with the bake.
 
 use std::f32::consts::{FRAC_1_PI, PI};
 
@@ -23,14 +23,14 @@ fn measure(scene: &Scene, position: Vec3, normal: Vec3, settings: &PathSettings)
     irradiance(&Tracer::new(scene), &[point], settings, &Unwatched).expect("nobody cancels")[0]
 }
 
-/// The estimate is within four of its standard errors, which are small.
+/// Asserts that the standard error of the estimate is small, and that the estimate is within four of them.
 #[track_caller]
 fn assert_close(estimate: Vec3, error: Vec3, exact: Vec3) {
     assert!(error.cmple(0.02 * exact.abs() + 1e-6).all(), "{estimate} is known to {error} only");
     assert!((estimate - exact).abs().cmple(4.0 * error + 1e-4 * exact).all(), "{estimate} +- {error} for {exact}");
 }
 
-/// Mean radiance of a picture.
+/// Computes the mean radiance of a picture.
 fn mean(film: &Film) -> Vec3 {
     let radiance = film.radiance();
     radiance.iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).sum::<Vec3>() / radiance.len() as f32
@@ -68,7 +68,7 @@ fn each_bounce_in_a_furnace_adds_its_share() {
     assert_close(found.total, found.total_error, exitance / (1.0 - reflectance));
 }
 
-/// A lamp that faces down, and a floor below it.
+/// Builds a lamp that faces down, and a floor below it.
 fn lamp_over(floor_reflectance: f32) -> (Scene, [Vec3; 4]) {
     let mut builder = SceneBuilder::default();
     let lamp = builder.material(glowing(Vec3::ZERO, Vec3::new(4.0, 2.0, 1.0)));
@@ -131,7 +131,7 @@ fn few_paths_find_the_bright_spot_of_a_point_light_beside_a_ceiling() {
     let scene = with_groups(builder.build(), 1);
     let eye = Vec3::new(0.3, 1.5, 0.1);
     let found = measure(&scene, eye, Vec3::NEG_Y, &PathSettings { samples: 1024, ..PathSettings::default() });
-    // Half of the light falls on the ceiling: the integral over equal parts of it by the midpoint rule.
+    // Half of the light falls on the ceiling. The integral over the ceiling is computed by the midpoint rule.
     let (mut exact, steps) = (0.0, 400);
     for i in 0..steps * steps {
         let [part, turn] = [i % steps, i / steps].map(|k| (k as f32 + 0.5) / steps as f32);
@@ -167,7 +167,7 @@ fn a_lamp_with_a_pattern_lights_as_its_bright_half() {
     assert_close(found.total, found.total_error, Vec3::splat(exact));
 }
 
-/// A square of material `front`, and behind the camera a large wall that emits towards it.
+/// Builds a square of material `front`, and behind the camera a large wall that emits towards it.
 fn before_a_shining_wall(front: Material, radiance: f32) -> Quads {
     let mut quads = Quads::square(front, Vec3::ZERO);
     let glow = Material { emission: Vec3::splat(radiance), group: Some(GroupId(0)), ..paint(Vec3::ZERO) };
@@ -241,7 +241,7 @@ fn the_second_pass_adds_ambient_light_to_that_of_the_lamps() {
         let seen = see(&quads, ambient);
         assert!((seen - radiance).abs().max_element() < 1e-3, "{ambient:?}: {seen} for {radiance}");
     }
-    // Two walls close together see only each other: the gathered light is what the other wall reflects.
+    // Two walls close together see only each other, so the gathered light is the light that the other wall reflects.
     let grey = quads.material(paint(Vec3::splat(0.5)));
     quads.quad(Vec3::new(50.0, -50.0, 0.01), -100.0 * Vec3::X, 100.0 * Vec3::Y, grey);
     quads.light(GroupId(0), |_| Vec3::splat(2.0), |_| Vec3::splat(1.0));
@@ -249,7 +249,7 @@ fn the_second_pass_adds_ambient_light_to_that_of_the_lamps() {
     assert!((gathered - 0.5 * 3.0 * FRAC_1_PI).abs().max_element() < 1e-3, "{gathered}");
 }
 
-/// A room with a lamp under its ceiling.
+/// Builds a room with a lamp under its ceiling.
 fn lamp_room() -> Scene {
     let mut builder = SceneBuilder::default();
     let white = builder.material(glowing(Vec3::splat(0.7), Vec3::ZERO));
@@ -261,7 +261,7 @@ fn lamp_room() -> Scene {
     with_groups(builder.build(), 1)
 }
 
-/// Ratio of stored irradiance to that of paths, summed over vertices away from the edges of [`lamp_room`].
+/// Computes stored irradiance / irradiance by paths, each summed over vertices away from the edges of [`lamp_room`].
 fn baked_over_paths(scene: &Scene, baked: &BakedScene, paths: &PathSettings) -> Vec3 {
     let light = &baked.light.groups[0];
     let vertices: Vec<usize> = (0..baked.scene.vertices.len()).step_by(7).collect();
@@ -273,7 +273,7 @@ fn baked_over_paths(scene: &Scene, baked: &BakedScene, paths: &PathSettings) -> 
     let truth = irradiance(&Tracer::new(scene), &points, paths, &Unwatched).unwrap();
     let (mut baked_sum, mut true_sum, mut num_inside) = (Vec3::ZERO, Vec3::ZERO, 0);
     for ((&v, point), found) in vertices.iter().zip(&points).zip(&truth) {
-        // Points in the edges of the room have no surface of their own, and the back of the lamp is hidden.
+        // Points in the edges of the room lie on no single surface, and the back of the lamp is hidden.
         let inset =
             (point.position - 0.05).min(Vec3::new(2.95, 1.95, 2.45) - point.position) + 0.1 * point.normal.abs();
         if inset.min_element() > 0.0 && point.position.y < 1.9 {
@@ -309,7 +309,7 @@ fn the_k_th_gathering_pass_equals_paths_of_k_reflections() {
             ..BakeSettings::preset(Quality::Draft)
         };
         let baked = bake(&scene, &settings).unwrap().baked;
-        // Irradiance has not yet been reflected by the surface that the camera sees.
+        // Irradiance does not include the reflection at the surface itself, so paths have one bounce less.
         let paths = PathSettings { max_bounces: passes as u32 - 1, ..PathSettings::default() };
         let ratio = baked_over_paths(&scene, &baked, &paths);
         assert!((ratio - 1.0).abs().max_element() < 0.01, "pass {passes}: {ratio}");

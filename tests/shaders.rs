@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::support::sources::files_below;
 
-/// Name and files of each `shader!("name", "file", ...)` in a source text.
+/// Returns name and files of each `shader!("name", "file", ...)` in a source text.
 fn declarations(text: &str) -> Vec<(String, Vec<String>)> {
     let mut found = Vec::new();
     for after in text.split("shader!(").skip(1) {

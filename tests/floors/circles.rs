@@ -1,13 +1,14 @@
-//! Circles of files that use each other.
+//! Cycles in the dependencies between files.
 
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use super::imports::Uses;
 
-/// Files that use each other in a ring; the last uses the first.
+/// A cycle of files: each uses the next, and the last uses the first.
 pub type Circle = Vec<String>;
 
-/// A shortest circle through each file that is on one, without those that hold no file that a shorter one lacks.
+/// Returns a shortest cycle through each file that is on one. A cycle is left out if shorter ones contain all its
+/// files.
 pub fn circles(uses: &Uses) -> Vec<Circle> {
     let mut all: Vec<Circle> = uses.keys().filter_map(|file| shortest_circle(uses, file)).collect();
     all.sort_by_key(Vec::len);
@@ -20,7 +21,7 @@ pub fn circles(uses: &Uses) -> Vec<Circle> {
     all
 }
 
-/// The shortest way from `start` back to itself, breadth first.
+/// Returns the shortest cycle from `start` back to itself, by breadth-first search.
 fn shortest_circle(uses: &Uses, start: &str) -> Option<Circle> {
     let mut reached_from: BTreeMap<&str, &str> = BTreeMap::new();
     let mut waiting = VecDeque::from([start]);
@@ -41,7 +42,7 @@ fn shortest_circle(uses: &Uses, start: &str) -> Option<Circle> {
     None
 }
 
-/// The circle as a chain with the names that tie it.
+/// Formats the cycle as a chain, with the names through which each file uses the next.
 pub fn describe(circle: &Circle, uses: &Uses) -> String {
     let next = |at: usize| &circle[(at + 1) % circle.len()];
     let steps = circle.iter().enumerate().map(|(at, file)| {

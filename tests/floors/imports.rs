@@ -1,4 +1,5 @@
-//! Which file of the crate uses which other: each path is followed through re-exports to the file that defines its item.
+//! Dependencies between the files of the crate: each path is followed through re-exports to the file that defines its
+//! item.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -7,13 +8,13 @@ use super::names::{Names, Path};
 /// Text of each file by its path below src/.
 pub type Sources = BTreeMap<String, String>;
 
-/// Names that tie one file to another.
+/// Names through which one file uses another.
 pub type Ties = BTreeSet<String>;
 
-/// For each file those that it uses.
+/// The files that each file uses, and through which names.
 pub type Uses = BTreeMap<String, BTreeMap<String, Ties>>;
 
-/// A crate's files with what they define and name.
+/// Dependencies between the files of a crate.
 pub struct Imports {
     files: BTreeMap<String, Names>,
     by_module: BTreeMap<Path, String>,
@@ -23,11 +24,11 @@ pub struct Imports {
     pub passed_on: Uses,
 }
 
-/// Where a path ends.
+/// Target of a path.
 enum Target {
-    /// In this item of this file.
+    /// An item of a file.
     Item { file: String, name: String },
-    /// At this module.
+    /// A module.
     Module(Path),
 }
 
@@ -66,9 +67,10 @@ impl Imports {
         (used, passed_on)
     }
 
-    /// Ties the file that defines a type to `file` if this one gives the type methods that the first calls.
+    /// Adds dependencies by methods. If `file` implements methods of a type that another file defines, and that file
+    /// calls them, it uses `file`.
     fn follow_methods(&self, file: &str, used: &mut Uses) {
-        // Types of the standard library have methods of these names, too.
+        // Types of the standard library have methods of these names too, so a call says nothing about the type.
         const COMMON: [&str; 10] = ["clear", "get", "insert", "is_empty", "iter", "len", "map", "new", "push", "take"];
         for (name, methods) in &self.files[file].methods {
             let Some(Target::Item { file: owner, .. }) = self.resolve(&module_of(file), std::slice::from_ref(name), 0)
@@ -85,9 +87,9 @@ impl Imports {
         }
     }
 
-    /// Follows `path` as it stands in `module`; `None` if it leads out of the crate or to a local name.
+    /// Resolves `path` in `module`; `None` if it leads out of the crate or to a local name.
     fn resolve(&self, module: &Path, path: &[String], depth: usize) -> Option<Target> {
-        const DEEPEST: usize = 16; // A name that imports itself, as `use image;` does, leads in a ring.
+        const DEEPEST: usize = 16; // A name that imports itself, as in `use image;`, would be followed forever.
         let (first, rest) = path.split_first()?;
         if depth > DEEPEST {
             return None;
@@ -111,7 +113,7 @@ impl Imports {
         if is_known { self.descend(module.clone(), path, depth) } else { None }
     }
 
-    /// Follows `rest` downward from `module`.
+    /// Resolves `rest` downward from `module`.
     fn descend(&self, module: Path, rest: &[String], depth: usize) -> Option<Target> {
         let file = self.by_module.get(&module)?;
         let Some((next, after)) = rest.split_first() else {
@@ -134,7 +136,7 @@ impl Imports {
         if let Some(beyond) = self.glob_with(&module, next, depth) {
             return self.descend(beyond, rest, depth + 1);
         }
-        // A macro of the crate root, or an item that a macro makes.
+        // The name is a macro of the crate root, or an item that a macro generates.
         let exports = |names: &Names| module.is_empty() && names.exported_macros.contains(next);
         item(self.files.iter().find(|(_, names)| exports(names)).map_or(file, |(file, _)| file))
     }
@@ -144,12 +146,13 @@ impl Imports {
         self.by_module.contains_key(&child).then_some(child)
     }
 
-    /// Whether no item of `module` shares the name of its module `name`: a function may be called as its file is.
+    /// Returns true if no item of `module` has the same name as its module `name`. A function may be named like its
+    /// file.
     fn is_module_only(&self, module: &Path, name: &str) -> bool {
         self.files[&self.by_module[module]].import(name).is_none()
     }
 
-    /// The module whose names `module` imports with `*`, if it has `name`.
+    /// Returns the module with `name` among those whose names `module` imports with `*`.
     fn glob_with(&self, module: &Path, name: &str, depth: usize) -> Option<Path> {
         let names = &self.files[self.by_module.get(module)?];
         names.globs().find_map(|glob| match self.resolve(module, &glob.path, depth + 1) {
@@ -167,7 +170,7 @@ fn tie(uses: &mut Uses, file: &str, target: &str, name: &str) {
     }
 }
 
-/// The path of the module that `file` is.
+/// Returns the path of the module that `file` is.
 fn module_of(file: &str) -> Path {
     let stem = file.trim_end_matches(".rs");
     let stem = stem.strip_suffix("mod").filter(|rest| rest.ends_with('/')).unwrap_or(stem);
@@ -175,7 +178,7 @@ fn module_of(file: &str) -> Path {
     stem.split('/').filter(|part| !part.is_empty() && !is_root).map(str::to_owned).collect()
 }
 
-/// Removes the modules that exist in tests only, with all below them.
+/// Removes modules that exist in tests only, and all modules below them.
 fn remove_tests(files: &mut BTreeMap<String, Names>) {
     let tests: Vec<Path> = files
         .iter()

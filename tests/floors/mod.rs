@@ -1,5 +1,5 @@
-//! The rules of ARCHITECTURE.md: a file uses lower floors and its own folder only, no files use each other in a circle,
-//! wgpu stays where it belongs, and folders stay small.
+//! Checks the rules of ARCHITECTURE.md. A floor is a layer: a file uses lower floors and its own folder only.
+//! Dependencies between files have no cycles, wgpu appears only in certain folders, and folders are small.
 
 mod circles;
 mod imports;
@@ -14,7 +14,8 @@ use imports::{Imports, Sources};
 
 use crate::support::sources::files_below;
 
-/// The code files with this extension below `folder` of the project, by their path relative to it, with slashes.
+/// Lists the code files with this extension below `folder` of the project, with their path relative to it, with
+/// slashes.
 fn listed(folder: &str, extension: &str) -> Vec<(String, PathBuf)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join(folder);
     let relative = |path: &Path| path.strip_prefix(&root).expect("it lies below").to_string_lossy().replace('\\', "/");

@@ -1,4 +1,4 @@
-//! What one file defines, imports and names in its code.
+//! The names that one file defines, imports and uses in its code.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -10,22 +10,22 @@ pub type Path = Vec<String>;
 /// One name of a `use`.
 #[derive(Clone, Debug)]
 pub struct Import {
-    /// What the file calls it; `*` if it is a glob.
+    /// Name of the import in the file; `*` if it is a glob.
     pub name: String,
     pub path: Path,
-    /// `pub use` in any form: it passes a name on.
+    /// True for `pub use` in any form, which re-exports the name.
     pub public: bool,
 }
 
-/// The names of one file, tests left out.
+/// The names of one file without its tests.
 #[derive(Debug, Default)]
 pub struct Names {
     /// Items outside of any block.
     pub defined: BTreeSet<String>,
-    /// Macros that the crate root shows.
+    /// Macros that the crate root exports.
     pub exported_macros: BTreeSet<String>,
     pub imports: Vec<Import>,
-    /// Paths in code that are not a `use`.
+    /// Paths in code outside of `use`.
     pub mentions: Vec<Path>,
     /// Names of the methods of each type in `impl Type` blocks, without those of traits.
     pub methods: BTreeMap<String, BTreeSet<String>>,
@@ -35,7 +35,7 @@ pub struct Names {
     pub test_modules: Vec<String>,
 }
 
-/// Where in a file a word stands.
+/// Position of a word in the structure of a file.
 #[derive(Clone, Copy)]
 struct Scope {
     /// Number of blocks around it.
@@ -45,7 +45,7 @@ struct Scope {
 }
 
 impl Scope {
-    /// The path as it would be written outside of the inline modules.
+    /// Returns the path as it would be written outside of the inline modules.
     fn seen_from_file(self, mut path: Path) -> Path {
         let leads_out = path.iter().take(self.inline).take_while(|segment| *segment == "super").count();
         if leads_out > 0 {
@@ -80,7 +80,7 @@ impl Names {
         names
     }
 
-    /// Whether the file defines or imports `name`.
+    /// Returns true if the file defines or imports `name`.
     pub fn has(&self, name: &str) -> bool {
         self.defined.contains(name) || self.import(name).is_some()
     }
@@ -93,7 +93,7 @@ impl Names {
         self.imports.iter().filter(|import| import.name == "*")
     }
 
-    /// Reads the word at `at` with what belongs to it; returns the place behind.
+    /// Reads the word at `at` with the tokens that belong to it. Returns the index after them.
     fn read_word(&mut self, tokens: &[Token], at: usize, scope: Scope) -> usize {
         let before = if at == 0 { "" } else { text_at(tokens, at - 1) };
         match tokens[at].text.as_str() {
@@ -133,7 +133,7 @@ impl Names {
         if path.len() > 1 || before == "." && is_call {
             self.called.extend(path.last().cloned());
         }
-        // `pub(in path)` limits who sees an item and uses nothing.
+        // `pub(in path)` limits the visibility of an item and is no use of `path`.
         let is_visibility =
             before == "in" && at > 2 && text_at(tokens, at - 2) == "(" && text_at(tokens, at - 3) == "pub";
         if names_an_item && !is_visibility && !matches!(before, "." | "::") {
@@ -155,7 +155,7 @@ impl Names {
     }
 }
 
-/// The type of the `impl Type {` whose tokens follow the keyword; `None` if it is of a trait.
+/// Returns the type of an `impl Type {` whose tokens follow the keyword; `None` if a trait is implemented.
 fn inherent_type(tokens: &[Token]) -> Option<String> {
     let (mut depth, mut name) = (0, None);
     for token in tokens {
@@ -194,7 +194,7 @@ fn use_leaves(tree: &[Token], prefix: &mut Path, leaves: &mut Vec<(String, Path)
     }
 }
 
-/// The parts between the commas of the outer level.
+/// Splits at the commas of the outer level.
 fn branches(tree: &[Token]) -> Vec<&[Token]> {
     let (mut parts, mut start, mut depth) = (Vec::new(), 0, 0);
     for (at, token) in tree.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! The rules of the house; each returns one line for each breach.
+//! The rules of ARCHITECTURE.md. Each function returns one line for each breach.
 
 use std::collections::BTreeMap;
 
@@ -6,14 +6,15 @@ use super::circles::{circles, describe};
 use super::imports::{Imports, Sources, Uses};
 use super::tokens::{text_at, tokens};
 
-/// Height of each folder directly below src/. A file uses lower folders and its own; equals never use each other.
+/// Floor (layer) of each folder directly below src/. A file uses its own folder and folders on lower floors. Folders on
+/// the same floor never use each other.
 const FLOORS: [(&str, f32); 14] = [
     ("base", 0.0),
     ("scene", 1.0),
     ("gpu", 1.0),
     ("patch", 2.0),
     ("trace", 2.0),
-    // The coarse mesh undoes what `patch` has cut.
+    // The coarse mesh merges the elements that `patch` has cut, so `baked` lies above it.
     ("baked", 2.5),
     ("form_factor", 3.0),
     ("lightmap", 3.0),
@@ -25,8 +26,9 @@ const FLOORS: [(&str, f32); 14] = [
     ("cli", 7.0),
 ];
 
-/// Floors inside of a folder: names of its files and folders, the lowest first; those of one floor never use each other.
-/// Files that are not named, such as the settings that gather those of each technique, are free.
+/// Floors inside a folder: names of its files and folders, the lowest floor first. Those on one floor never use each
+/// other.
+/// Files that are not listed are free, for example settings that contain those of each technique.
 pub type Rooms<'a> = (&'a str, &'a [&'a [&'a str]]);
 
 pub const ROOMS: &[Rooms<'_>] = &[
@@ -63,19 +65,19 @@ pub const ROOMS: &[Rooms<'_>] = &[
     ),
 ];
 
-/// Where wgpu may be named.
+/// Folders in which wgpu may be used.
 const WGPU_FOLDERS: [&str; 4] = ["gpu/", "form_factor/hemicube/", "render/", "viewer/"];
 
-/// Entrances: they see all floors.
+/// Roots of the crate, which may use all floors.
 const ENTRANCES: [&str; 2] = ["lib.rs", "main.rs"];
 
-/// Code files beside each other in one folder.
+/// Largest number of code files beside each other in one folder.
 const MOST_FILES: usize = 15;
 
 /// Extensions of code files.
 pub const CODE: [&str; 5] = ["rs", "wgsl", "py", "mjs", "sh"];
 
-/// Imports of a folder that is not lower.
+/// Finds imports of a folder that is not on a lower floor.
 pub fn upward_imports(imports: &Imports) -> Vec<String> {
     let height = |part: &str| FLOORS.iter().find(|(known, _)| *known == part).map(|&(_, height)| height);
     let mut found = Vec::new();
@@ -91,7 +93,7 @@ pub fn upward_imports(imports: &Imports) -> Vec<String> {
     found
 }
 
-/// Files in a folder that stands on no floor.
+/// Finds files in a folder without a floor.
 pub fn misplaced_files(sources: &Sources) -> Vec<String> {
     let is_misplaced = |file: &&String| {
         !ENTRANCES.contains(&file.as_str()) && FLOORS.iter().all(|(part, _)| *part != house_part(file))
@@ -99,7 +101,7 @@ pub fn misplaced_files(sources: &Sources) -> Vec<String> {
     sources.keys().filter(is_misplaced).map(|file| format!("{file} stands on no floor")).collect()
 }
 
-/// Imports of a room that is not lower, inside of the folders that `rooms` divides.
+/// Finds imports of a room that is not on a lower floor, inside the folders that `rooms` divides.
 pub fn upward_imports_in_rooms(imports: &Imports, rooms: &[Rooms<'_>]) -> Vec<String> {
     let mut found = Vec::new();
     for (file, target, names) in ties(&[&imports.used, &imports.passed_on]) {
@@ -116,14 +118,14 @@ pub fn upward_imports_in_rooms(imports: &Imports, rooms: &[Rooms<'_>]) -> Vec<St
     found
 }
 
-/// Circles of files.
+/// Finds cycles in the dependencies between files.
 pub fn file_circles(imports: &Imports) -> Vec<String> {
     let mut used = imports.used.clone();
     used.retain(|file, _| !ENTRANCES.contains(&file.as_str()));
     circles(&used).iter().map(|circle| describe(circle, &used)).collect()
 }
 
-/// Lines that name wgpu where it does not belong.
+/// Finds lines that use wgpu outside of [`WGPU_FOLDERS`].
 pub fn misplaced_wgpu(sources: &Sources) -> Vec<String> {
     let mut found = Vec::new();
     for (file, text) in sources.iter().filter(|(file, _)| !WGPU_FOLDERS.iter().any(|folder| file.starts_with(folder))) {
@@ -137,7 +139,7 @@ pub fn misplaced_wgpu(sources: &Sources) -> Vec<String> {
     found
 }
 
-/// Folders with too many code files beside each other; `files` are paths below the root of the project.
+/// Finds folders with too many code files beside each other. `files` are paths below the root of the project.
 pub fn crowded<'a>(files: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for file in files {
@@ -150,7 +152,7 @@ pub fn crowded<'a>(files: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     crowds.map(|(folder, count)| format!("{folder} holds {count} code files beside each other")).collect()
 }
 
-/// Each (file, file that it uses, names that tie them).
+/// Lists each (file, file that it uses, names through which it does).
 fn ties<'a>(uses: &[&'a Uses]) -> Vec<(&'a str, &'a str, String)> {
     let mut all = Vec::new();
     for (file, targets) in uses.iter().flat_map(|uses| uses.iter()) {
@@ -161,12 +163,12 @@ fn ties<'a>(uses: &[&'a Uses]) -> Vec<(&'a str, &'a str, String)> {
     all
 }
 
-/// Folder, or file stem, directly below src/.
+/// Returns the folder, or file stem, directly below src/.
 fn house_part(file: &str) -> &str {
     file.split('/').next().unwrap_or(file).trim_end_matches(".rs")
 }
 
-/// Folder, or file stem, directly below `folder`, if the file lies there.
+/// Returns the folder, or file stem, directly below `folder`, if the file lies there.
 fn room_in<'a>(file: &'a str, folder: &str) -> Option<&'a str> {
     file.strip_prefix(folder)?.strip_prefix('/').map(house_part)
 }

@@ -4,7 +4,7 @@
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Token {
     pub text: String,
-    /// Counted from 1.
+    /// Line number, counted from 1.
     pub line: usize,
 }
 
@@ -14,7 +14,7 @@ impl Token {
     }
 }
 
-/// The text of the token at `index`, empty beyond the end.
+/// Returns the text of the token at `index`; empty beyond the end.
 pub fn text_at(tokens: &[Token], index: usize) -> &str {
     tokens.get(index).map_or("", |token| token.text.as_str())
 }
@@ -46,7 +46,7 @@ enum Piece {
     Code,
 }
 
-/// The end and the kind of the piece of text that begins at `at`.
+/// Returns the end and the kind of the piece of text that begins at `at`.
 fn next_piece(chars: &[char], at: usize) -> (usize, Piece) {
     let peek = |ahead: usize| chars.get(at + ahead).copied().unwrap_or(' ');
     let is_name = |c: char| c.is_alphanumeric() || c == '_';
@@ -72,7 +72,7 @@ fn next_piece(chars: &[char], at: usize) -> (usize, Piece) {
     }
 }
 
-/// Block comments nest.
+/// Returns the index after a block comment. Block comments nest.
 fn end_of_block_comment(chars: &[char], at: usize) -> usize {
     let (mut depth, mut end) = (0, at);
     while end < chars.len() {
@@ -96,7 +96,7 @@ fn end_of_character(chars: &[char], quote: usize) -> usize {
     end_of_literal(chars, quote, '\'')
 }
 
-/// Behind the next `delimiter` that no backslash escapes.
+/// Returns the index after the next `delimiter` that no backslash escapes.
 fn end_of_literal(chars: &[char], quote: usize, delimiter: char) -> usize {
     let mut end = quote + 1;
     while end < chars.len() && chars[end] != delimiter {
@@ -114,7 +114,8 @@ fn end_of_raw_string(chars: &[char], at: usize) -> usize {
     (at + hashes + 1..chars.len()).find(|&end| is_end(end)).map_or(chars.len(), |end| end + hashes + 1)
 }
 
-/// Tokens without the items under `#[cfg(test)]`, and the names of the modules among these that are files of their own.
+/// Removes the items under `#[cfg(test)]`. Also returns the names of those items that are modules in files of their
+/// own.
 pub fn without_tests(tokens: &[Token]) -> (Vec<Token>, Vec<String>) {
     let (mut kept, mut test_modules, mut at) = (Vec::new(), Vec::new(), 0);
     while at < tokens.len() {
@@ -134,13 +135,13 @@ pub fn without_tests(tokens: &[Token]) -> (Vec<Token>, Vec<String>) {
     (kept, test_modules)
 }
 
-/// `#[cfg(test)]` or `#[cfg(all(test, ...))]`.
+/// Returns true for `#[cfg(test)]` or `#[cfg(all(test, ...))]`.
 fn is_test_attribute(tokens: &[Token]) -> bool {
     let starts = |pattern: &[&str]| pattern.iter().enumerate().all(|(at, &text)| text_at(tokens, at) == text);
     starts(&["#", "[", "cfg", "(", "test", ")"]) || starts(&["#", "[", "cfg", "(", "all", "(", "test"])
 }
 
-/// Behind all attributes that begin at `at`.
+/// Returns the index after all attributes that begin at `at`.
 fn end_of_attributes(tokens: &[Token], mut at: usize) -> usize {
     while text_at(tokens, at) == "#" {
         at = end_of_group(tokens, at + 1);
@@ -148,7 +149,7 @@ fn end_of_attributes(tokens: &[Token], mut at: usize) -> usize {
     at
 }
 
-/// Behind the bracket that closes the one at `open`.
+/// Returns the index after the bracket that closes the one at `open`.
 fn end_of_group(tokens: &[Token], open: usize) -> usize {
     let mut depth = 0;
     for at in open..tokens.len() {
@@ -164,7 +165,7 @@ fn end_of_group(tokens: &[Token], open: usize) -> usize {
     tokens.len()
 }
 
-/// Behind the semicolon or the block that ends an item, or the comma that ends a field.
+/// Returns the index after the semicolon or block that ends an item, or the comma that ends a field.
 fn end_of_item(tokens: &[Token], start: usize) -> usize {
     const ITEMS: [&str; 13] = [
         "pub",

@@ -5,7 +5,7 @@ use hemicube::base::sampling::r2;
 use hemicube::scene::{LightKind, Scene, builtin};
 use hemicube::trace::Tracer;
 
-/// The `index`-th of a sequence of directions, uniformly distributed over the sphere.
+/// Returns direction `index` of a sequence that is uniformly distributed over the sphere.
 fn direction(index: u32) -> Vec3 {
     let at = r2(index, 3);
     let y = 1.0 - 2.0 * at.x;
@@ -13,7 +13,7 @@ fn direction(index: u32) -> Vec3 {
     Vec3::new(cos, 0.0, sin) * (1.0 - y * y).sqrt() + Vec3::Y * y
 }
 
-/// Directions of rays from `eye` that hit nothing, and of those that hit the back of a surface.
+/// Returns the directions of rays from `eye` that hit nothing, and of those that hit the back of a surface.
 fn leaks(scene: &Scene, eye: Vec3) -> (Vec<Vec3>, Vec<Vec3>) {
     let tracer = Tracer::new(scene);
     let (mut void, mut behind) = (Vec::new(), Vec::new());
@@ -52,7 +52,7 @@ fn the_sun_reaches_the_floor_of_the_hall() {
         .map(|i| r2(i, 5))
         .filter(|at| tracer.transmittance(Vec3::new(at.x * 6.0, 1e-3, at.y * 7.2), to_sun, f32::INFINITY) > 0.0)
         .count();
-    // Three windows of 1.2 m x 1.2 m, projected on to 6.0 m x 7.2 m of floor; columns and steps shade a part.
+    // Three windows of 1.2 m x 1.2 m are projected onto 6.0 m x 7.2 m of floor. Columns and steps shade a part.
     let share = num_sunlit as f32 / 10_000.0;
     let windows = 3.0 * 1.2 * 1.2 * (0.975 / 0.8) / (6.0 * 7.2);
     assert!(share > 0.4 * windows && share < windows, "{share} of {windows}");

@@ -1,4 +1,4 @@
-//! Invalid input: every file either loads or yields an error of one line; nothing panics.
+//! Invalid input: every file either loads or yields an error of one line. Nothing panics.
 
 use std::fs;
 use std::io::Cursor;
@@ -11,14 +11,14 @@ use hemicube::scene::gltf::{self, LoadError};
 use hemicube::scene::{Scene, doctor};
 use serde_json::{Value, json};
 
-/// A grey image of one pixel.
+/// Returns a grey image of one pixel.
 fn png() -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
     image::GrayImage::new(1, 1).write_to(&mut file, image::ImageFormat::Png).expect("PNG can be written");
     file.into_inner()
 }
 
-/// JSON of a lit, textured, emissive triangle over [`triangle_bytes`].
+/// Returns the JSON of a lit, textured, emissive triangle over [`triangle_bytes`].
 fn triangle_json() -> Value {
     let png_bytes = png().len();
     json!({
@@ -56,7 +56,7 @@ fn triangle_bytes() -> Vec<u8> {
     [positions, indices, uv, png()].concat()
 }
 
-/// A .glb file with these two chunks.
+/// Returns a .glb file with these two chunks.
 fn glb(json: &Value, binary: &[u8]) -> Vec<u8> {
     let mut text = json.to_string().into_bytes();
     text.resize(text.len().next_multiple_of(4), b' ');
@@ -92,7 +92,7 @@ fn assert_error(name: &str, bytes: &[u8], cause: &str) {
     assert!(error.contains(name) && error.contains(cause), "{error:?} should contain {name} and {cause:?}");
 }
 
-/// As [`assert_error`], for the valid triangle with one value of its JSON changed.
+/// Calls [`assert_error`] for the valid triangle with one value of its JSON changed.
 fn assert_json_error(place: &str, value: Value, cause: &str) {
     let mut json = triangle_json();
     *json.pointer_mut(place).expect("the place exists") = value;
@@ -182,7 +182,8 @@ fn buffers_are_read_only_from_the_folder_of_the_scene() {
     }
 }
 
-/// Instances multiply: a small file may describe more than fits into memory. It is refused before memory is allocated.
+/// Instances multiply the triangles of a mesh, so a small file may describe more than fits into memory. The loader
+/// returns an error before memory is allocated.
 #[test]
 fn a_small_file_with_a_huge_scene_is_refused() {
     let mut json = triangle_json();
@@ -193,7 +194,7 @@ fn a_small_file_with_a_huge_scene_is_refused() {
     assert_error("huge.glb", &glb(&json, &triangle_bytes()), "too large");
 }
 
-/// The bytes of a valid file with some flipped, overwritten or cut off; the same in every run.
+/// Returns the bytes of a valid file with some flipped, overwritten or cut off; the same in every run.
 fn corrupted(good: &[u8], variant: u32) -> Vec<u8> {
     let mut bytes = good.to_vec();
     let mut state = variant;

@@ -1,4 +1,4 @@
-//! Files with extensions look like their twins in plain glTF.
+//! Files with extensions look like their twins, the same scenes in plain glTF.
 //!
 //! `tests/interop/make_files.mjs` writes them with third-party encoders.
 
@@ -41,7 +41,7 @@ fn scene(name: &str) -> Scene {
     load(&path(name)).unwrap()
 }
 
-/// A picture in uniform ambient light, which shows shape, colours and textures.
+/// Draws a scene in uniform ambient light, which shows shape, colours and textures.
 fn shown(scene: Scene) -> Option<Raster> {
     let camera = scene.cameras[0].clone();
     let light = VertexLight::dark(0, scene.vertices.len());
@@ -57,7 +57,7 @@ fn shown(scene: Scene) -> Option<Raster> {
     Some(Raster::of(&picture, hemicube::render::FileKind::Radiance))
 }
 
-/// Relative error between the pictures of two scenes; `None` without a GPU.
+/// Computes the relative error between the pictures of two scenes; `None` without a GPU.
 fn error(one: Scene, other: Scene) -> Option<f64> {
     Some(f64::from(compare(&shown(one)?, &shown(other)?).unwrap().relative_rmse))
 }

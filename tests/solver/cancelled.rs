@@ -25,7 +25,7 @@ impl StopAt {
         Self { stage, moment, count: AtomicUsize::new(0) }
     }
 
-    /// Counts the reports of a stage.
+    /// Creates a watch that counts the reports of a stage and never cancels.
     fn never(stage: Stage) -> Self {
         Self::new(stage, usize::MAX)
     }
@@ -64,7 +64,8 @@ fn open(path: &Path) -> RowCache {
     RowCache::open(path, 1 << 30).unwrap()
 }
 
-/// A point light casts a hard shadow of a block on the floor, so elements are halved down to the smallest.
+/// Builds a room in which a point light casts a hard shadow of a block on the floor, so elements are halved down to the
+/// smallest.
 fn sharp_room() -> Scene {
     let mut builder = SceneBuilder::default();
     let white = builder.material(glowing(Vec3::splat(0.7), Vec3::ZERO));
@@ -115,7 +116,7 @@ fn a_cancelled_bake_continues_to_the_same_bits() {
 fn other_colours_reuse_most_rows_and_other_geometry_none() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("rows");
-    // Refined elements and the number of hemicubes follow the light, so both are fixed here.
+    // Refinement and the number of hemicubes depend on the light, so both are fixed here.
     let settings = settings();
     let settings = BakeSettings {
         refinement: Refinement { max_error: 0.0, ..settings.refinement },

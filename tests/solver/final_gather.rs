@@ -15,7 +15,7 @@ use crate::support::scenes::{glowing, with_groups};
 const WALL: f32 = 4.0;
 const SHEET: f32 = 3.96;
 
-/// A room with a single-sided sheet, such as a mirror, close before its wall at x = 4.
+/// Builds a room with a single-sided sheet, such as a mirror, close to its wall at x = 4.
 fn room_with_a_sheet() -> Scene {
     let mut builder = SceneBuilder::default();
     let grey = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));
@@ -25,7 +25,7 @@ fn room_with_a_sheet() -> Scene {
     with_groups(builder.build(), 1)
 }
 
-/// Viewpoints all over the wall, and on the sheet where it hides the wall.
+/// Returns viewpoints all over the wall; where the sheet hides the wall, they are on the sheet.
 fn viewpoints() -> Vec<Viewpoint> {
     let positions = (1..60).flat_map(|i| (1..80).map(move |k| (0.05 * i as f32, 0.05 * k as f32)));
     let viewpoint = |(seed, (y, z))| {
@@ -36,7 +36,8 @@ fn viewpoints() -> Vec<Viewpoint> {
     (0..).zip(positions).map(viewpoint).collect()
 }
 
-/// All surfaces reflect 1 and the back of the sheet nothing, so the exact irradiance is 1 less the share of backs in view.
+/// All surfaces have radiosity 1 and the back of the sheet 0, so the exact irradiance is 1 minus the share of backs in
+/// view.
 #[test]
 fn no_viewpoint_interpolates_records_behind_a_sheet() {
     let scene = room_with_a_sheet();

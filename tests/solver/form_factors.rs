@@ -13,7 +13,7 @@ use hemicube::trace::Tracer;
 use crate::support::device::gpu;
 use crate::support::scenes::{self, glowing, with_groups};
 
-/// A room, its mesh, and a viewpoint on each of its patches.
+/// Returns a room, its mesh, and a viewpoint on each of its patches.
 fn room(seed: u32) -> (Scene, PatchMesh, Vec<Viewpoint>) {
     let scene = scenes::cluttered_room(seed);
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.5, patch_size: 1.0 }).unwrap();
@@ -26,7 +26,7 @@ fn rows(source: &mut dyn FormFactorSource, viewpoints: &[Viewpoint]) -> Vec<Row>
     map_rows(source, viewpoints, &|| true, |_, row| row.clone()).unwrap()
 }
 
-/// Share of the view that each input triangle fills.
+/// Sums up the share of the view that each input triangle fills.
 fn by_triangle(entries: &[Entry], mesh: &PatchMesh) -> Vec<f32> {
     let mut shares = vec![0.0; mesh.roots.len()];
     for entry in entries {
@@ -35,7 +35,8 @@ fn by_triangle(entries: &[Entry], mesh: &PatchMesh) -> Vec<f32> {
     shares
 }
 
-/// In a closed room the factors of each row are positive and sum to 1 with those of backs, and no share is sky.
+/// Asserts that rows in a closed room are complete: factors are positive and sum to 1 with those of backs, and no share
+/// is sky.
 fn assert_complete(rows: &[Row]) {
     for row in rows {
         let sum: f32 = row.entries.iter().map(|entry| entry.factor).sum();
@@ -95,7 +96,7 @@ fn culled_triangles_are_never_visible() {
     }
 }
 
-/// Mean over the viewpoints of the share of the view that two methods assign to different patches.
+/// Computes the share of the view that two methods assign to different patches, as a mean over the viewpoints.
 fn disagreement(one: &[Row], other: &[Row], mesh: &PatchMesh) -> f32 {
     let by_patch = |row: &Row| {
         let mut shares = vec![0.0; mesh.patches.len()];
@@ -129,7 +130,7 @@ fn the_chosen_hemicube_size_resolves_the_patches() {
     }
 }
 
-/// Form factors `[i][j]` between patches, by `num_rays` rays from each of `num_points` points a patch.
+/// Computes form factors `[i][j]` between patches, by `num_rays` rays from each of `num_points` points per patch.
 fn between_patches(scene: &Scene, mesh: &PatchMesh, num_points: usize, num_rays: u32) -> Vec<Vec<f64>> {
     let placement = Viewpoints::new(scene);
     let of_patch = |patch| placement.on_patch(mesh, patch, num_points);
@@ -156,7 +157,7 @@ fn form_factors_between_patches_are_reciprocal() {
         let error = Hemispheres::standard_error(factors[i][j], f64::from(NUM_RAYS) * NUM_POINTS as f64);
         (area * factors[i][j], area * error)
     };
-    // Differences in units of their own standard errors.
+    // Differences from reciprocity, in units of their standard errors.
     let deviations = (0..factors.len()).flat_map(|i| (0..i).map(move |j| (i, j))).map(|(i, j)| {
         let ((one, one_error), (other, other_error)) = (exchange(i, j), exchange(j, i));
         (one - other) / one_error.hypot(other_error)
@@ -187,7 +188,7 @@ fn polygon(corners: &[[f64; 3]]) -> Polygon {
     Polygon::new(corners.iter().map(|&corner| corner.into()).collect()).unwrap()
 }
 
-/// Pairs of a unit square that faces up and another polygon, with their published form factors.
+/// Returns pairs of a unit square that faces up and another polygon, with their published form factors.
 fn published_pairs() -> Vec<(PolygonPair, f64)> {
     let floor = || polygon(&[[0., 0., 0.], [1., 0., 0.], [1., 1., 0.], [0., 1., 0.]]);
     let ceiling = |z: f64| polygon(&[[0., 1., z], [1., 1., z], [1., 0., z], [0., 0., z]]);
@@ -199,7 +200,8 @@ fn published_pairs() -> Vec<(PolygonPair, f64)> {
     ]
 }
 
-/// A small square blocks the view between two large ones. No simple closed form is known, but the methods share no step.
+/// Returns two large squares with a small one between them that blocks the view. No simple closed form is known, but
+/// the methods share no step.
 fn blocked_pair() -> PolygonPair {
     let square = |size: f64, z: f64| polygon(&[[-size, -size, z], [size, -size, z], [size, size, z], [-size, size, z]]);
     let ceiling = polygon(&[[-1., 1., 1.], [1., 1., 1.], [1., -1., 1.], [-1., -1., 1.]]);

@@ -16,7 +16,7 @@ use crate::support::scenes::{self, glowing, with_groups};
 
 const NUM_RAYS: u32 = 256;
 
-/// A cluttered room and its mesh, in which the first element of every 64th patch is brighter than all others.
+/// Returns a cluttered room and its mesh. The first element of every 64th patch is brighter than all others.
 fn room_with_bright_spots() -> (Scene, PatchMesh, Field) {
     let scene = scenes::cluttered_room(5);
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.25, patch_size: 0.5 }).unwrap();
@@ -50,7 +50,7 @@ fn mean(values: &[f32]) -> f32 {
     values.iter().sum::<f32>() / values.len() as f32
 }
 
-/// Irradiance at viewpoints on the floor, none interpolated, with samples of the given seed.
+/// Computes irradiance at viewpoints on the floor, without interpolation, with samples of the given seed.
 fn on_the_floor(noise: f32, seed: u32) -> Vec<f32> {
     let (scene, mesh, radiosity) = room_with_bright_spots();
     let tracer = Tracer::new(&scene);

@@ -10,7 +10,8 @@ use hemicube::scene::{Light, SceneBuilder, builtin};
 use crate::support::device::gpu;
 use crate::support::scenes::{self, glowing, with_groups};
 
-/// Worst relative deviation from the exact answer over all vertices, and the imbalance of the energy account.
+/// Returns the largest relative deviation from the exact answer over all vertices, and the imbalance of the energy
+/// balance.
 fn furnace_errors(gpu: Option<&Gpu>, method: Method) -> (f32, f64) {
     let (reflectance, exitance) = (Vec3::new(0.5, 0.7, 0.2), Vec3::new(1.0, 2.0, 3.0));
     let scene = scenes::furnace(reflectance, exitance);
@@ -44,13 +45,13 @@ fn hemispheres_bake_a_furnace_to_its_closed_form_without_a_device() {
     assert!(worst < 5e-3 && imbalance < 1e-3, "worst deviation {worst}, imbalance {imbalance}");
 }
 
-/// The draft preset without adaptive subdivision.
+/// Returns the draft preset without adaptive subdivision.
 fn without_refinement() -> BakeSettings {
     let draft = BakeSettings::preset(Quality::Draft);
     BakeSettings { refinement: Refinement { max_error: 0.0, ..draft.refinement }, ..draft }
 }
 
-/// Two point lights in two groups, one twice as bright as when it burns alone in the other scene.
+/// Builds a room with two point lights of these intensities, in two groups.
 fn lamp_room(intensities: [f32; 2]) -> hemicube::scene::Scene {
     let mut builder = SceneBuilder::default();
     let white = builder.material(glowing(Vec3::splat(0.7), Vec3::ZERO));
@@ -64,7 +65,7 @@ fn lamp_room(intensities: [f32; 2]) -> hemicube::scene::Scene {
 #[test]
 fn light_is_linear_and_groups_are_independent() {
     let Some(gpu) = gpu() else { return };
-    // Without subdivision, which follows the light, both bakes have the same mesh.
+    // Subdivision depends on the light. Without it both bakes have the same mesh.
     let settings = BakeSettings { element_size: Some(0.4), ..without_refinement() };
     let bake = |intensities| bake_with(&lamp_room(intensities), &settings, &BakeContext::on(gpu)).unwrap().baked.light;
     let (one, other) = (bake([100.0, 30.0]), bake([200.0, 30.0]));
@@ -86,7 +87,7 @@ fn in_a_closed_room_no_light_escapes() {
     let report = bake_with(&lamp_room([100.0, 30.0]), &settings, &BakeContext::on(gpu)).unwrap().report;
     assert!(report.energy.escaped < 1e-4 * report.energy.emitted, "{:?}", report.energy);
     assert!(report.energy.imbalance < 1e-3 && report.work.unshot_share < 0.01, "{report:?}");
-    // 4 pi I arrives from each lamp; vertices sample it, so a coarse mesh is good for a few percent.
+    // Each lamp emits the flux 4 pi I. It is sampled at vertices, so a coarse mesh has an error of a few percent.
     let flux = 4.0 * std::f64::consts::PI * 130.0;
     assert!((report.energy.emitted / flux - 1.0).abs() < 0.05, "{} lm of {flux}", report.energy.emitted);
 }
@@ -96,7 +97,7 @@ fn a_wall_of_fine_holes_bakes_to_finite_light() {
     let Some(gpu) = gpu() else { return };
     let settings = BakeSettings { element_size: Some(0.25), ..BakeSettings::preset(Quality::Draft) };
     let mut scene = lamp_room([100.0, 30.0]);
-    // One solid texel in a hundred: the samples of most elements find none.
+    // One texel in a hundred is solid, so the samples of most elements hit none.
     let mut texels = vec![[255, 255, 255, 0]; 100];
     texels[42] = [255; 4];
     scene.textures.push(crate::support::quads::texture(10, &texels));
@@ -109,7 +110,7 @@ fn a_wall_of_fine_holes_bakes_to_finite_light() {
     assert!(light.groups.iter().flat_map(|g| g.direct.iter().chain(&g.indirect)).all(|e| e.is_finite()));
 }
 
-/// Luminance of all light at each vertex.
+/// Returns the luminance of all light at each vertex.
 fn irradiance(bake: &hemicube::bake::Bake) -> Vec<f32> {
     let group = &bake.baked.light.groups[0];
     group.direct.iter().zip(&group.indirect).map(|(direct, indirect)| luminance(*direct + *indirect)).collect()

@@ -13,8 +13,8 @@ static GPU: LazyLock<Option<Gpu>> = LazyLock::new(|| match Gpu::headless() {
     }
 });
 
-/// The device that all tests share; `None` on a machine without an adapter, where the test returns. Panics instead if the
-/// environment variable CI is set.
+/// Returns the device that all tests share; `None` on a machine without an adapter, where the test then returns. Panics
+/// instead if the environment variable CI is set.
 pub fn gpu() -> Option<&'static Gpu> {
     GPU.as_ref()
 }

@@ -7,17 +7,17 @@ use hemicube::baked::{BakedScene, GroupLight};
 use hemicube::base::ids::{GroupId, InstanceId, MaterialId, TextureId};
 use hemicube::scene::{Camera, Image, Material, Projection, Sampler, Texture, TextureSlot, Triangle, Vertex, Wrap};
 
-/// A diffuse material.
+/// Creates a diffuse material.
 pub fn paint(colour: Vec3) -> Material {
     Material::diffuse(colour)
 }
 
-/// A texture slot on coordinate set 0 without a transform.
+/// Creates a texture slot on coordinate set 0 without a transform.
 pub fn slot(texture: usize) -> TextureSlot {
     TextureSlot { texture: TextureId::new(texture), uv_set: 0, transform: Affine2::IDENTITY }
 }
 
-/// A repeating texture of `width` texels a row; it is not filtered, so that each texel is a sharp square.
+/// Creates a repeating texture with `width` texels per row. It is not filtered, so each texel is a sharp square.
 pub fn texture(width: u32, rgba: &[[u8; 4]]) -> Texture {
     let image = Image {
         name: "test".to_owned(),
@@ -30,7 +30,7 @@ pub fn texture(width: u32, rgba: &[[u8; 4]]) -> Texture {
     Texture { image: Arc::new(image), sampler: Sampler { wrap_u: Wrap::Repeat, wrap_v: Wrap::Repeat, nearest: true } }
 }
 
-/// A camera on +Z that sees exactly the square -1..1 of the plane z = 0.
+/// Creates a camera on +Z that sees exactly the square -1..1 of the plane z = 0.
 pub fn square_camera() -> Camera {
     Camera {
         name: "square".to_owned(),
@@ -47,7 +47,7 @@ pub struct Quads {
 }
 
 impl Quads {
-    /// A scene with `num_groups` dark light groups.
+    /// Starts a scene with `num_groups` dark light groups.
     pub fn with_groups(num_groups: usize) -> Self {
         let mut quads = Self::default();
         quads.baked.scene.light_groups = (0..num_groups).map(|g| format!("group {g}")).collect();
@@ -55,7 +55,8 @@ impl Quads {
         quads
     }
 
-    /// The square -1..1 of the plane z = 0, seen from +Z, under the given direct irradiance (one group).
+    /// Starts a scene with the square -1..1 of the plane z = 0, seen from +Z, under the given direct irradiance (one
+    /// group).
     pub fn square(material: Material, irradiance: Vec3) -> Self {
         let mut quads = Self::with_groups(1);
         let material = quads.material(material);
@@ -69,8 +70,8 @@ impl Quads {
         MaterialId::new(self.baked.scene.materials.len() - 1)
     }
 
-    /// A parallelogram with its front towards `u` x `v`; texture coordinates are those of glTF, (0, 0) at the top left of
-    /// the front with `v` up.
+    /// Adds a parallelogram with its front towards `u` x `v`. Texture coordinates are those of glTF: (0, 0) at the top
+    /// left of the front with `v` up.
     pub fn quad(&mut self, origin: Vec3, u: Vec3, v: Vec3, material: MaterialId) -> &mut Self {
         let scene = &mut self.baked.scene;
         let first = scene.vertices.len() as u32;

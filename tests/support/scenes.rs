@@ -5,18 +5,19 @@ use hemicube::base::ids::GroupId;
 use hemicube::base::sampling::{hash, unit_float};
 use hemicube::scene::{Material, Scene, SceneBuilder};
 
-/// A diffuse material that reflects `reflectance` and emits the exitance `exitance` in light group 0.
+/// Creates a diffuse material with `reflectance` that emits the exitance `exitance` in light group 0.
 pub fn glowing(reflectance: Vec3, exitance: Vec3) -> Material {
     let group = (exitance.max_element() > 0.0).then_some(GroupId(0));
     Material { emission: exitance / std::f32::consts::PI, group, ..Material::diffuse(reflectance) }
 }
 
-/// The scene with `num_groups` light groups.
+/// Returns the scene with `num_groups` light groups.
 pub fn with_groups(scene: Scene, num_groups: usize) -> Scene {
     Scene { light_groups: (0..num_groups).map(|g| format!("group {g}")).collect(), ..scene }
 }
 
-/// A closed unit cube in which every wall reflects `reflectance` and emits `exitance`: B = E / (1 - rho) everywhere.
+/// Builds a closed unit cube in which every wall reflects `reflectance` and emits `exitance`: B = E / (1 - rho)
+/// everywhere.
 pub fn furnace(reflectance: Vec3, exitance: Vec3) -> Scene {
     let mut builder = SceneBuilder::default();
     let wall = builder.material(glowing(reflectance, exitance));
@@ -24,7 +25,7 @@ pub fn furnace(reflectance: Vec3, exitance: Vec3) -> Scene {
     with_groups(builder.build(), 1)
 }
 
-/// A closed room with seven blocks at random positions and angles, lit by its ceiling.
+/// Builds a closed room with seven blocks at random positions and angles, lit by its ceiling.
 pub fn cluttered_room(seed: u32) -> Scene {
     let mut builder = SceneBuilder::default();
     let grey = builder.material(glowing(Vec3::splat(0.5), Vec3::ZERO));

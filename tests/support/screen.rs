@@ -7,7 +7,7 @@ use wgpu::{
     CommandEncoderDescriptor, Extent3d, Texture, TextureDescriptor, TextureDimension, TextureFormat, TextureUsages,
 };
 
-/// A screen of `size` pixels.
+/// Creates a texture of `size` pixels.
 pub fn screen(gpu: &Gpu, size: [u32; 2], format: TextureFormat) -> Texture {
     gpu.device.create_texture(&TextureDescriptor {
         label: Some("screen"),
@@ -21,7 +21,7 @@ pub fn screen(gpu: &Gpu, size: [u32; 2], format: TextureFormat) -> Texture {
     })
 }
 
-/// RGBA bytes of one picture by a renderer into [`TextureFormat::Rgba8Unorm`].
+/// Draws a picture with a renderer for [`TextureFormat::Rgba8Unorm`]. Returns its RGBA bytes.
 pub fn displayed(gpu: &Gpu, renderer: &mut Renderer, request: &PictureRequest<'_>) -> Vec<u8> {
     let target = screen(gpu, request.size, TextureFormat::Rgba8Unorm);
     let mut encoder = gpu.device.create_command_encoder(&CommandEncoderDescriptor::default());

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-/// Every file below `folder` with this extension, sorted.
+/// Lists every file below `folder` with this extension, sorted.
 pub fn files_below(folder: &Path, extension: &str) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).expect("the folder exists").map(|entry| entry.expect("readable").path());
     let mut files: Vec<PathBuf> = entries

@@ -1,4 +1,4 @@
-//! What the viewer draws: false colours with their lines, marks over a picture, hidden instances, dimmed light.
+//! Pictures of the viewer: false colours with their lines, marks over a picture, hidden instances, dimmed light.
 
 use std::f32::consts::PI;
 
@@ -67,7 +67,7 @@ fn lines_lie_at_the_divisions_of_the_scale() {
     assert_near(pixel(&plain, SIZE / 2, SIZE / 2), turbo(0.5), 12);
 }
 
-/// A picture of `quads` in false colours with an overlay on it.
+/// Draws `quads` in false colours with an overlay.
 fn marked(gpu: &Gpu, quads: &Quads, lines: &[Mark], triangles: &[Mark]) -> Picture {
     let settings = false_colour(LuxScale { num_parts: 0, ..LuxScale::default() });
     let scene = SceneBuffers::new(gpu, &quads.baked);

@@ -48,9 +48,9 @@ fn a_scene_is_freed_when_its_comparison_ends() {
     }
 }
 
-/// Number of textures of this many pixels that accumulate the direct light of real-time shadows.
+/// Counts the textures of this many pixels that accumulate the direct light of real-time shadows.
 fn num_gathering(gpu: &Gpu, num_pixels: u64) -> usize {
-    // Half or single floats, with the padding of rows.
+    // Texels are half or single floats, and rows may be padded.
     let is_one = |bytes: u64| {
         [8, 16].iter().any(|pixel| bytes.checked_sub(pixel * num_pixels).is_some_and(|rest| rest < num_pixels / 4))
     };

@@ -25,7 +25,7 @@ use crate::support::screen::screen;
 use crate::support::snapshot::assert_snapshot;
 
 const WINDOW: [u32; 2] = [1280, 720];
-/// Width of the side panel, which alone is compared.
+/// Width of the side panel, pixels. Only this part of the window is compared.
 const SIDE: u32 = 312;
 
 fn facts(scene: &Scene) -> Facts<'_> {
@@ -68,7 +68,7 @@ fn input(events: Vec<Event>, size: Vec2) -> RawInput {
     RawInput { screen_rect: Some(Rect::from_min_size(Pos2::ZERO, size)), events, ..RawInput::default() }
 }
 
-/// Panels on a screen of their own, repainted in each frame or with a cached side panel.
+/// Panels on a texture in place of the screen, repainted in each frame or with a cached side panel.
 struct Sheet {
     ctx: egui::Context,
     painter: egui_wgpu::Renderer,
@@ -85,7 +85,7 @@ impl Sheet {
         Self { ctx, painter, target: screen(gpu, WINDOW, TextureFormat::Rgba8Unorm), kept }
     }
 
-    /// RGBA bytes of the next frame.
+    /// Draws the next frame. Returns its RGBA bytes.
     fn frame(&mut self, gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Vec<u8> {
         let size = WINDOW.map(|side| side as f32).into();
         let mut free = Rect::ZERO;
@@ -128,7 +128,7 @@ impl Sheet {
     }
 }
 
-/// The picture of the side panel.
+/// Draws the side panel.
 fn side_picture(gpu: &Gpu, panels: &mut Panels, facts: &Facts<'_>) -> Picture {
     let mut sheet = Sheet::new(gpu, None);
     // egui needs some frames until all sizes are final.
@@ -195,7 +195,7 @@ impl Dice {
     }
 }
 
-/// A random event of pointer, wheel, keys or text.
+/// Returns a random event of pointer, wheel, keys or text.
 fn event(dice: &mut Dice, size: Vec2) -> Event {
     let at = Pos2::new(dice.number() * 1.1 * size.x, dice.number() * 1.1 * size.y);
     let button = [PointerButton::Primary, PointerButton::Secondary][dice.below(2)];
@@ -223,7 +223,7 @@ fn event(dice: &mut Dice, size: Vec2) -> Event {
     }
 }
 
-/// `HEMICUBE_RANDOM_FRAMES` sets the number of frames.
+/// The environment variable `HEMICUBE_RANDOM_FRAMES` sets the number of frames.
 #[test]
 fn random_input_keeps_the_settings_valid() {
     let num_frames = std::env::var("HEMICUBE_RANDOM_FRAMES").ok().and_then(|text| text.parse().ok()).unwrap_or(400);
