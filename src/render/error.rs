@@ -1,4 +1,4 @@
-//! What can go wrong with pictures and their files.
+//! Errors of pictures and their files.
 
 use std::path::PathBuf;
 
@@ -7,13 +7,13 @@ use thiserror::Error;
 /// A picture could not be read, written or compared.
 #[derive(Debug, Error)]
 pub enum RenderError {
-    /// The file name ends in no known format.
+    /// The file name ends in no known extension.
     #[error("cannot tell the format of {path}: a picture ends in .png (as displayed) or .exr (linear radiance)")]
     UnknownExtension {
         /// The file as given.
         path: PathBuf,
     },
-    /// The file system refused to write.
+    /// The file system reported an error while the file was written.
     #[error("cannot write {path}: {cause}")]
     Write {
         /// The file as given.

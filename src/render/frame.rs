@@ -27,41 +27,41 @@ pub struct Renderer {
     tile_filler: TileFiller,
     /// Passes for the sources of direct light that have been drawn so far.
     surfaces: HashMap<DirectSource, SurfacePass>,
-    /// Created for the first picture whose direct light comes from the lights.
+    /// Passes of real-time direct light; created for the first picture that uses them.
     live: Option<RealTimeLight>,
-    /// Created for the first debug view.
+    /// Passes of debug views; created for the first debug view.
     debug: Option<DebugPass>,
-    /// The shadows of the last picture, to notice another scene.
+    /// The shadows of the last picture, to detect a change of scene.
     last_shadows: Weak<ShadowScene>,
     meter: LightMeter,
-    /// The exposure of the renderer that this one follows.
+    /// The exposure of the renderer that this one follows, if any.
     followed: Option<wgpu::Buffer>,
     tone_map: ToneMapPass,
     output_format: wgpu::TextureFormat,
     samples: u32,
-    /// Targets of the last pictures, the last first.
+    /// Targets of the last pictures, the most recent first.
     targets: Vec<Targets>,
     keeps_radiance: bool,
 }
 
-/// Where a renderer takes an automatic exposure from.
+/// Source of the automatic exposure of a renderer.
 pub enum Metering<'a> {
-    /// From its own light meter.
+    /// Its own light meter.
     Own,
-    /// From the light meter of another renderer, which both write: the exposure is that of the picture drawn last.
+    /// The light meter of another renderer. Both renderers meter, and the exposure is that of the picture drawn last.
     Shared(&'a Renderer),
-    /// From another renderer, which alone meters.
+    /// The light meter of another renderer. Only the other renderer meters.
     Followed(&'a Renderer),
 }
 
 impl Renderer {
-    /// A renderer into textures of `output_format`, with `samples` samples a pixel (1 or 4).
+    /// Creates a renderer for textures of `output_format`, with `samples` samples a pixel (1 or 4).
     #[must_use]
     pub fn new(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32) -> Self {
         Self::with_metering(gpu, output_format, samples, Metering::Own)
     }
 
-    /// As [`Self::new`], with an automatic exposure from `metering`.
+    /// Creates a renderer as [`Self::new`], with an automatic exposure from `metering`.
     #[must_use]
     pub fn with_metering(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32, metering: Metering<'_>) -> Self {
         let frame_layout = frame_layout(gpu);
@@ -90,12 +90,12 @@ impl Renderer {
         }
     }
 
-    /// As [`Self::new`]; [`Self::hdr`] holds the radiance of the last picture.
+    /// Creates a renderer as [`Self::new`] whose [`Self::hdr`] holds the radiance of the last picture.
     pub(super) fn keeping_radiance(gpu: &Gpu, output_format: wgpu::TextureFormat, samples: u32) -> Self {
         Self { keeps_radiance: true, ..Self::new(gpu, output_format, samples) }
     }
 
-    /// Records part of the direct light of a picture; the next [`Self::draw`] of the same picture adds the rest.
+    /// Records a part of the direct light of a picture. The next [`Self::draw`] of the same picture adds the rest.
     pub fn add_light(&mut self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, request: &PictureRequest<'_>) {
         self.note_scene(request);
         let bindings = frame_bind_group(gpu, &self.frame_layout, request.scene, &request.view, request.settings);
@@ -107,7 +107,7 @@ impl Renderer {
         }
     }
 
-    /// Records a picture into the whole of `target`, which has the size of the request.
+    /// Records the passes of a picture. It fills `target`, which has the size of the request.
     pub fn draw(
         &mut self,
         gpu: &Gpu,
@@ -127,7 +127,7 @@ impl Renderer {
 
         // Sum the light of the vertices over the light groups.
         let stored = self.weighted.of(gpu, encoder, &bindings, scene, settings).clone();
-        // Add up direct light from the lights themselves, each in its shadows.
+        // Add up direct light from the lights themselves, each with its shadows.
         let live = settings.shadows.as_ref().zip(frame).map(|(shadows, frame)| {
             let live = self.live.get_or_insert_with(|| RealTimeLight::new(gpu, &self.frame_layout, self.samples));
             live.draw(encoder, frame, shadows)
@@ -135,7 +135,7 @@ impl Renderer {
         if live.is_none() {
             self.live.iter_mut().for_each(RealTimeLight::release_targets);
         }
-        // Draw the surfaces: display colours, or radiance for the passes that follow.
+        // Draw the surfaces: as display colours, or as radiance for the passes that follow.
         let is_metered = settings.fixed_exposure().is_none() && self.followed.is_none();
         let is_last = self.can_display_at_once(in_view, request);
         let onto = match (is_last, is_metered) {
@@ -155,7 +155,7 @@ impl Renderer {
         let input = SurfaceInput { bindings: &bindings, in_view, settings, stored: &stored, exposure, live };
         surface.draw(gpu, encoder, &onto, input);
         lap(encoder, "surfaces");
-        // Meter the exposure that suits this picture.
+        // Meter the exposure of this picture.
         if is_metered {
             let input = if is_last { MeterInput::Luminance } else { MeterInput::Radiance };
             self.meter.draw(gpu, encoder, &targets, input, &bindings);
@@ -166,19 +166,19 @@ impl Renderer {
             self.tone_map.draw(gpu, encoder, &targets, &bindings, exposure, target);
             lap(encoder, "tone map");
         }
-        // Draw what the shadow technique works with.
+        // Draw the debug view of the shadow technique.
         if let (Some(debug), Some(frame)) = (settings.shadow_debug, frame) {
             let pass = self.debug.get_or_insert_with(|| DebugPass::new(gpu, &self.frame_layout, self.output_format));
             pass.draw(encoder, target, frame, debug);
         }
 
         request.shadows.iter().for_each(|shadows| shadows.drop_unused());
-        // With one sample a pixel, pictures of a movement may change their size back and forth.
+        // With one sample a pixel, pictures of a movement may alternate between sizes.
         self.targets.insert(0, targets);
         self.targets.truncate(if self.samples == 1 { 2 } else { 1 });
     }
 
-    /// Drops what is kept of the last scene if the request is for another one.
+    /// Drops the data that is cached for the last scene if the request is for another one.
     fn note_scene(&mut self, request: &PictureRequest<'_>) {
         let shadows = request.shadows.map_or_else(Weak::new, Arc::downgrade);
         if !Weak::ptr_eq(&self.last_shadows, &shadows) {
@@ -188,15 +188,15 @@ impl Renderer {
         }
     }
 
-    /// The surface pass can write display colours: nothing else reads the radiance, the exposure is known before, and
-    /// neither samples nor surfaces are blended.
+    /// Returns true if the surface pass can write display colours: nothing else reads the radiance, the exposure is
+    /// known in advance, and neither samples nor surfaces are blended.
     fn can_display_at_once(&self, in_view: &SceneBuffers, request: &PictureRequest<'_>) -> bool {
         let blends = in_view.batches.iter().any(|batch| batch.alpha_mode == AlphaMode::Blend);
         let is_exposed = request.settings.fixed_exposure().is_some() || request.exposure == MeteredExposure::OfLast;
         !self.keeps_radiance && self.samples == 1 && is_exposed && !blends
     }
 
-    /// The exposure in stops that was metered last; `None` if no picture was metered. Blocks until it is drawn.
+    /// Returns the last metered exposure in stops; `None` if no picture was metered. Blocks until the picture is drawn.
     ///
     /// # Errors
     /// Returns an error if the device was lost.
@@ -206,14 +206,14 @@ impl Renderer {
         Ok((factor > 0.0).then(|| factor.log2()))
     }
 
-    /// The radiance of the last picture of [`Self::keeping_radiance`], before exposure, scaled by
+    /// Returns the radiance of the last picture of [`Self::keeping_radiance`], before exposure and scaled by
     /// [`SceneBuffers::pre_exposure`].
     pub(super) fn hdr(&self) -> Option<&wgpu::Texture> {
         self.targets.first().map(|targets| &targets.hdr)
     }
 }
 
-/// What every pass of shadows is given; `None` if the request has no casters and lights.
+/// Returns the input of every shadow pass; `None` if the request has no casters and lights.
 fn frame_context<'a>(
     gpu: &'a Gpu,
     request: &'a PictureRequest<'_>,

@@ -33,7 +33,7 @@ struct FrameUniform {
 impl FrameUniform {
     fn new(scene: &SceneBuffers, view: &View, settings: &RenderSettings) -> Self {
         let weight = |group: usize| settings.group_weight(GroupId::new(group)).extend(0.0);
-        // The light of all batches so far is summed; the picture shows their mean.
+        // The light of all batches so far is summed. The picture shows their mean.
         let num_batches =
             1 + settings.shadows.as_ref().and_then(|shadows| shadows.batch).map_or(0, |batch| batch.number);
         let live = settings.direct / (PI * num_batches as f32);
@@ -68,7 +68,7 @@ impl ChoicesStorage {
     }
 }
 
-/// Layout of bind group 0.
+/// Creates the layout of bind group 0.
 pub fn frame_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let entry = |binding, ty| wgpu::BindGroupLayoutEntry {
         binding,
@@ -85,7 +85,7 @@ pub fn frame_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     })
 }
 
-/// Bind group 0 of one picture, with buffers of its own, so that several pictures can share a submission.
+/// Creates bind group 0 of one picture. It has buffers of its own, so that several pictures can share a submission.
 pub fn frame_bind_group(
     gpu: &Gpu,
     layout: &wgpu::BindGroupLayout,
@@ -120,7 +120,7 @@ mod tests {
         macro_rules! offsets {
             ($($field:ident),+) => { vec![$(offset_of!(FrameUniform, $field)),+, size_of::<FrameUniform>()] };
         }
-        // The shader does not name the gap before `eye`.
+        // The shader has no name for the gap before `eye`.
         let written = offsets![
             projection_from_world,
             group_weights,

@@ -1,4 +1,4 @@
-//! Pictures without a window.
+//! Draws pictures without a window.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use crate::gpu::{Gpu, GpuError};
 use crate::render::scene::SceneBuffers;
 use crate::scene::Camera;
 
-/// Samples a pixel of a picture for people.
+/// Number of samples a pixel of a picture for people, with smooth edges.
 const SAMPLES: u32 = 4;
 
 /// Uploads a bake and draws a picture of `size` pixels with smooth edges.
@@ -48,7 +48,7 @@ pub fn picture(
 /// Draws a picture of a scene that is on the device already, with `samples` samples a pixel, 1 or 4.
 ///
 /// # Errors
-/// As [`picture`].
+/// Returns an error in the same cases as [`picture`].
 pub fn draw_picture(gpu: &Gpu, request: &PictureRequest<'_>, samples: u32) -> Result<Picture, GpuError> {
     let [width, height] = request.size;
     gpu.check()?;
@@ -90,7 +90,7 @@ fn display_target(gpu: &Gpu, size: [u32; 2]) -> wgpu::Texture {
     })
 }
 
-/// Linear radiance of half floats that were scaled by the pre-exposure.
+/// Returns linear radiance from half floats that were scaled by the pre-exposure.
 fn radiance_from_hdr(bytes: &[u8], pre_exposure: f32) -> Vec<[f32; 4]> {
     let (pixels, _) = bytes.as_chunks::<8>();
     let channel = |pixel: &[u8; 8], i: usize| f32_from_half(u16::from_le_bytes([pixel[2 * i], pixel[2 * i + 1]]));

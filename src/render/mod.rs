@@ -1,20 +1,20 @@
 //! Floor 3: pictures of a lit scene, for the window and for files.
 //!
-//! The end of the route: a [`BakedScene`](crate::baked::BakedScene) is uploaded as [`SceneBuffers`](scene::SceneBuffers)
-//! and drawn by a [`Renderer`], whose [`frame`] is the recipe of passes. Each pass is a file here, and its shader is the file
-//! of the same stem in the same folder of `shaders/`.
+//! A [`BakedScene`](crate::baked::BakedScene) is uploaded as [`SceneBuffers`](scene::SceneBuffers) and drawn by a
+//! [`Renderer`]; its [`frame`] is the sequence of passes. Each pass is a file here, and its shader is the file of the
+//! same stem in the same folder of `shaders/`.
 //!
 //! | room | holds |
 //! |---|---|
 //! | [`scene`] | the lit scene on the device |
 //! | [`stored_light`] | the light of the vertices, summed over the light groups, and spread over tiles |
-//! | [`shadow`] | direct light from the lights themselves, in the shadows of a technique |
+//! | [`shadow`] | direct light from the lights themselves, with the shadows of a technique |
 //! | `surface` | radiance of every visible point |
 //! | [`display`] | exposure and tone mapping, false colours |
-//! | [`mod@compare`] | how far two pictures differ |
+//! | [`mod@compare`] | difference of two pictures |
 //!
-//! [`picture()`] draws a picture without a window. Deliberately absent: a render graph, a scene tree, view-dependent light;
-//! light comes from the vertices.
+//! [`picture()`] draws a picture without a window. There is deliberately no render graph, no scene tree, and no
+//! view-dependent light: light comes from the vertices.
 
 pub mod compare;
 pub mod display;

@@ -1,6 +1,6 @@
 //! Overlay: lines and tinted faces over a finished picture, hidden by the surfaces before them.
 //!
-//! It draws the depth of the scene again with one sample a pixel, so that pictures without marks cost nothing.
+//! It draws the depth of the scene again with one sample a pixel. So pictures without marks cost nothing.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
@@ -22,7 +22,7 @@ pub(in crate::render) const OVERLAY: Shader =
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Mark {
-    /// Metres, in world space.
+    /// Position in world space, metres.
     pub position: Vec3,
     /// Display colour: sRGB encoded with straight alpha.
     pub colour: [u8; 4],
@@ -66,7 +66,7 @@ pub struct OverlayPass {
 }
 
 impl OverlayPass {
-    /// Pipelines for pictures of `output_format`.
+    /// Creates pipelines for pictures of `output_format`.
     #[must_use]
     pub fn new(gpu: &Gpu, output_format: wgpu::TextureFormat) -> Self {
         let frame_layout = frame_layout(gpu);
@@ -105,7 +105,7 @@ impl OverlayPass {
         let seen = scene.in_view(gpu, &view.cull_view(settings.cull_back));
         let mut pass = begin(encoder, target, &depth.0);
         pass.set_bind_group(0, &frame, &[]);
-        // Depth of the surfaces that hide marks.
+        // Draw the depth of the surfaces that hide marks.
         let (indices, batches) = seen.coarsest();
         if !batches.is_empty() {
             pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
@@ -115,7 +115,7 @@ impl OverlayPass {
             pass.set_vertex_buffer(0, seen.vertices_of(batch).slice(..));
             pass.draw_indexed(batch.indices.clone(), 0, 0..1);
         }
-        // Tinted faces, and lines on top of them.
+        // Draw tinted faces, and lines on top of them.
         for (pipeline, corners) in [(&self.triangles, &overlay.triangles), (&self.lines, &overlay.lines)] {
             if corners.count > 0 {
                 pass.set_pipeline(pipeline);
@@ -164,7 +164,7 @@ fn begin<'e>(
     })
 }
 
-/// What a pipeline draws.
+/// Kind of primitive that a pipeline draws.
 #[derive(Clone, Copy)]
 enum Primitive {
     /// The scene, into the depth only.

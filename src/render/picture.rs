@@ -22,7 +22,7 @@ pub struct Picture {
     pub display: Vec<u8>,
 }
 
-/// What a picture file holds.
+/// Content of a picture file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FileKind {
     /// `.png`: the picture as displayed.
@@ -32,7 +32,7 @@ pub enum FileKind {
 }
 
 impl FileKind {
-    /// The kind of a file, by the end of its name.
+    /// Returns the kind of a file by the extension of its name.
     ///
     /// # Errors
     /// Returns an error if the name ends in neither `.png` nor `.exr`.
@@ -49,7 +49,7 @@ impl FileKind {
 impl Picture {
     /// Writes the display colours as `.png`, or the linear radiance as `.exr`.
     ///
-    /// The file gets its name when it is complete.
+    /// The file is written under another name and renamed when it is complete.
     ///
     /// # Errors
     /// Returns an error if the name ends in neither, or if the file cannot be written.
@@ -71,10 +71,10 @@ impl Picture {
     }
 }
 
-/// Writes linear display colours with white at 1 into a `.png` (sRGB encoded) or `.exr` file (as they are).
+/// Writes linear display colours with white at 1 into a `.png` (sRGB encoded) or `.exr` file (unchanged).
 ///
 /// # Errors
-/// As [`Picture::save`].
+/// Returns an error in the same cases as [`Picture::save`].
 pub fn save_display(path: &Path, size: [u32; 2], pixels: &[Vec3]) -> Result<(), RenderError> {
     let encode = |channel: f32| (255.0 * srgb_from_linear(channel)).round() as u8;
     let display = pixels.iter().flat_map(|pixel| [encode(pixel.x), encode(pixel.y), encode(pixel.z), 255]).collect();

@@ -1,4 +1,4 @@
-//! What one picture shows, and how.
+//! A request for one picture: scene, camera and settings.
 
 use std::sync::Arc;
 
@@ -7,18 +7,18 @@ use crate::gpu::Stopwatch;
 use crate::render::scene::SceneBuffers;
 use crate::scene::Camera;
 
-/// What one picture shows, and how.
+/// A request for one picture: scene, camera and settings.
 #[derive(Clone, Copy)]
 pub struct PictureRequest<'a> {
     /// Pixels across and down.
     pub size: [u32; 2],
     /// The scene on the device.
     pub scene: &'a SceneBuffers,
-    /// Its casters and lights. Without them, direct light comes from the vertices whatever the settings say.
+    /// Casters and lights of the scene. Without them, direct light comes from the vertices whatever the settings are.
     pub shadows: Option<&'a Arc<ShadowScene>>,
     /// The camera.
     pub view: View,
-    /// What is shown of surfaces, and how bright.
+    /// Shading of the surfaces, exposure, and weights of the light.
     pub settings: &'a RenderSettings,
     /// The picture that an automatic exposure is metered from.
     pub exposure: MeteredExposure,
@@ -32,13 +32,13 @@ pub enum MeteredExposure {
     /// This picture: it is drawn as radiance, metered, and then tone mapped.
     #[default]
     OfThis,
-    /// The picture before it, as in a movement. With one sample a pixel and no surface that blends, the surface pass then
-    /// writes display colours at once, which is faster.
+    /// The picture before it, as in a movement. With one sample a pixel and no surface that blends, the surface pass
+    /// then writes display colours directly, which is faster.
     OfLast,
 }
 
 impl<'a> PictureRequest<'a> {
-    /// A picture that `camera` takes of a scene, with the stored light of the scene.
+    /// Creates a request for a picture that `camera` takes of a scene, with the stored light of the scene.
     #[must_use]
     pub fn new(scene: &'a SceneBuffers, camera: &Camera, size: [u32; 2], settings: &'a RenderSettings) -> Self {
         Self {

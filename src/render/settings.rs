@@ -1,4 +1,4 @@
-//! What a picture shows of surfaces and their light, and how bright.
+//! Settings of a picture: which quantity of the surfaces it shows, and how bright.
 
 use glam::Vec3;
 
@@ -6,10 +6,10 @@ use super::display::false_colour::LuxScale;
 use super::shadow::{ShadowDebug, ShadowSettings};
 use crate::base::ids::GroupId;
 
-/// Number of light groups with a weight of their own; further groups take that of the last.
+/// Number of light groups with a weight of their own; further groups have the weight of the last.
 pub const MAX_GROUPS: usize = 8;
 
-/// How bright the picture is.
+/// Exposure of the picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Exposure {
     /// Metered from the picture.
@@ -18,7 +18,7 @@ pub enum Exposure {
     Ev(f32),
 }
 
-/// How radiance beyond white is shown.
+/// Curve that maps radiance to display colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ToneMap {
     /// Khronos PBR Neutral (2024): colours below 0.8 of white are unchanged; above it a smooth curve compresses the largest
@@ -28,14 +28,14 @@ pub enum ToneMap {
     Linear,
 }
 
-/// What is shown of a surface.
+/// Quantity of a surface that the picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Shading {
-    /// The light that it sends: emission and reflection.
+    /// Light that it sends: emission and reflection.
     Lit,
-    /// The light that it receives, as the radiance of white paint: E / pi.
+    /// Light that it receives, as the radiance of white paint: E / pi.
     IrradianceOnly,
-    /// The illuminance that it receives as a colour of [`RenderSettings::lux_scale`], with lines of equal illuminance.
+    /// Illuminance that it receives, as a colour of [`RenderSettings::lux_scale`] with lines of equal illuminance.
     FalseColour,
     /// Its reflectance, without exposure.
     Albedo,
@@ -44,7 +44,7 @@ pub enum Shading {
 }
 
 impl Shading {
-    /// `SHADING` of shaders/surface/pass.wgsl.
+    /// Returns the value of `SHADING` in shaders/surface/pass.wgsl.
     pub(super) fn number(self) -> u32 {
         match self {
             Shading::Lit => 0,
@@ -56,14 +56,14 @@ impl Shading {
     }
 }
 
-/// What a picture shows of surfaces and their light, and how bright.
+/// Settings of a picture: which quantity of the surfaces it shows, and how bright.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RenderSettings {
-    /// How bright the picture is.
+    /// Exposure of the picture.
     pub exposure: Exposure,
-    /// How radiance beyond white is shown.
+    /// Curve that maps radiance to display colours.
     pub tone_map: ToneMap,
-    /// What is shown of a surface.
+    /// Quantity of a surface that the picture shows.
     pub shading: Shading,
     /// The scale of false colours.
     pub lux_scale: LuxScale,
@@ -75,16 +75,18 @@ pub struct RenderSettings {
     pub shadow_debug: Option<ShadowDebug>,
     /// Factor on indirect irradiance.
     pub indirect: f32,
-    /// Radiance of white paint that is added everywhere; it makes unlit scenes visible.
+    /// Radiance of white paint that is added everywhere, so that unlit scenes are visible.
     pub ambient: Vec3,
-    /// Factor on the light of each group `[g]` and on the emission of its lamps; groups beyond the end of the list have 1.
+    /// Factor on the light of each group `[g]` and on the emission of its lamps. Groups beyond the end of the list have
+    /// the factor 1.
     pub group_weights: Vec<Vec3>,
     /// Linear display colour of pixels without a surface; exposure does not change it.
     pub background: Vec3,
-    /// Metals are drawn with their base colour as diffuse reflectance, as if their surroundings were even. Physically they
-    /// reflect nothing diffusely; false draws them black.
+    /// True if metals reflect their base colour diffusely, as if their surroundings were uniform. False draws them
+    /// black: a physical metal reflects nothing diffusely.
     pub metal_as_diffuse: bool,
-    /// Single-sided surfaces are invisible from behind, which opens rooms to views from outside; false draws their backs black.
+    /// True if single-sided surfaces are invisible from behind, which opens rooms to views from outside. False draws
+    /// their backs black.
     pub cull_back: bool,
 }
 
@@ -109,7 +111,7 @@ impl Default for RenderSettings {
 }
 
 impl ToneMap {
-    /// `TONE_MAP_...` of shaders/display/display_colour.wgsl.
+    /// Returns the value of `TONE_MAP_...` in shaders/display/display_colour.wgsl.
     pub(super) fn number(self) -> u32 {
         match self {
             ToneMap::Neutral => 0,
@@ -119,7 +121,7 @@ impl ToneMap {
 }
 
 impl RenderSettings {
-    /// The exposure, a factor on radiance; `None` if it is metered.
+    /// Returns the exposure, a factor on radiance; `None` if it is metered.
     #[must_use]
     pub fn fixed_exposure(&self) -> Option<f32> {
         match (self.shading, self.exposure) {
@@ -129,13 +131,13 @@ impl RenderSettings {
         }
     }
 
-    /// Factor on the light of a group.
+    /// Returns the factor on the light of a group.
     #[must_use]
     pub fn group_weight(&self, group: GroupId) -> Vec3 {
         self.group_weights.get(group.index().min(MAX_GROUPS - 1)).copied().unwrap_or(Vec3::ONE)
     }
 
-    /// The tone map that applies: shadings that do not show light are linear.
+    /// Returns the tone map that applies. It is linear for shadings that do not show light.
     #[must_use]
     pub fn tone_map_in_force(&self) -> ToneMap {
         match self.shading {

@@ -10,8 +10,9 @@ pub const HDR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba16Float;
 pub const LUMINANCE_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::R16Float;
 /// Reversed depth: 1 at the near plane, 0 at infinity.
 ///
-/// Perspective makes depth proportional to 1 / distance, and floats are dense near 0; reversed, the two cancel, and the
-/// relative precision of a distance is nearly the same everywhere (Reed 2015, "Depth Precision Visualized").
+/// Perspective makes depth proportional to 1 / distance, and floats are dense near 0. With reversed depth the two
+/// effects cancel, and the relative precision of a distance is nearly the same everywhere (Reed 2015, "Depth Precision
+/// Visualized").
 pub const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
 /// The textures that one picture is drawn into.
@@ -22,16 +23,16 @@ pub struct Targets {
     pub hdr: wgpu::Texture,
     /// View of `hdr`.
     pub hdr_view: wgpu::TextureView,
-    /// The HDR picture with several samples a pixel, if there are several.
+    /// The HDR picture with several samples a pixel; `None` with one.
     pub samples: Option<wgpu::TextureView>,
     /// Depth of each sample.
     pub depth: wgpu::TextureView,
-    /// Created by the first picture that needs it.
+    /// Luminance texture; created by the first picture that needs it.
     luminance: OnceCell<wgpu::TextureView>,
 }
 
 impl Targets {
-    /// Targets of `size` pixels with `samples` samples each.
+    /// Creates targets of `size` pixels with `samples` samples each.
     #[must_use]
     pub fn new(gpu: &Gpu, size: [u32; 2], samples: u32) -> Self {
         let drawn = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;
@@ -48,7 +49,7 @@ impl Targets {
         }
     }
 
-    /// The luminance of each pixel, for pictures whose surface pass writes display colours.
+    /// Returns the luminance of each pixel, for pictures whose surface pass writes display colours.
     pub fn luminance(&self, gpu: &Gpu) -> &wgpu::TextureView {
         self.luminance.get_or_init(|| {
             let usage = wgpu::TextureUsages::RENDER_ATTACHMENT | wgpu::TextureUsages::TEXTURE_BINDING;

@@ -11,7 +11,7 @@ use crate::base::bounds::Frustum;
 use crate::render::scene::cull_view::CullView;
 use crate::scene::{Camera, Projection};
 
-/// Near plane of a perspective view, metres.
+/// Distance of the near plane of a perspective view, metres.
 const NEAR: f32 = 1e-3;
 /// Depth of an orthographic view, metres.
 const ORTHOGRAPHIC_DEPTH: f32 = 1e3;
@@ -30,7 +30,7 @@ pub struct View {
 }
 
 impl View {
-    /// The view of `camera` for a picture that is `aspect` times as wide as high.
+    /// Returns the view of `camera` for a picture whose width is `aspect` times its height.
     #[must_use]
     pub fn from_camera(camera: &Camera, aspect: f32) -> Self {
         let projection_from_view = match camera.projection {
@@ -44,31 +44,32 @@ impl View {
         Self { camera_position: camera.position, view_from_world: camera.view_from_world(), projection_from_view }
     }
 
-    /// The part of space in view.
+    /// Returns the part of space in view.
     #[must_use]
     pub fn frustum(&self) -> Frustum {
         Frustum::new(&self.projection_from_world())
     }
 
-    /// The view as culling needs it; `cull_back` is [`RenderSettings::cull_back`](super::RenderSettings::cull_back).
+    /// Returns the view for culling; `cull_back` is [`RenderSettings::cull_back`](super::RenderSettings::cull_back).
     #[must_use]
     pub fn cull_view(&self, cull_back: bool) -> CullView {
         CullView { frustum: self.frustum(), eye: self.eye(), cull_back }
     }
 
-    /// Matrix from world space to clip space.
+    /// Returns the matrix from world space to clip space.
     #[must_use]
     pub fn projection_from_world(&self) -> Mat4 {
         self.projection_from_view * self.view_from_world
     }
 
-    /// Depth of a point at `distance` metres along the axis of the view.
+    /// Returns the depth of a point at `distance` metres along the axis of the view.
     #[must_use]
     pub fn depth_at(&self, distance: f32) -> f32 {
         self.projection_from_view.project_point3(Vec3::new(0.0, 0.0, -distance)).z
     }
 
-    /// Homogeneous eye: its position with w = 1, or in an orthographic view the unit vector towards the eye with w = 0.
+    /// Returns the homogeneous eye: its position with w = 1, or in an orthographic view the unit vector towards the eye
+    /// with w = 0.
     #[must_use]
     pub fn eye(&self) -> Vec4 {
         let is_perspective = self.projection_from_view.w_axis.w == 0.0;
@@ -79,7 +80,7 @@ impl View {
         }
     }
 
-    /// Vector from a point to the eye, metres; in an orthographic view the unit vector towards it.
+    /// Returns the vector from a point to the eye, metres; in an orthographic view the unit vector towards it.
     #[must_use]
     pub fn towards_eye(&self, point: Vec3) -> Vec3 {
         self.eye().truncate() - self.eye().w * point

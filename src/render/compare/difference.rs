@@ -1,8 +1,8 @@
-//! How far two pictures differ, in numbers that a test can hold.
+//! Difference of two pictures as numbers that a test can bound.
 //!
-//! Each of the three numbers detects another fault: the relative error a large one anywhere, the mean difference a picture
-//! that is slightly too bright everywhere, the perceptible share a small region that is plainly wrong. FLIP estimates pixel
-//! by pixel what an observer sees.
+//! Each of the three numbers detects another fault: the relative error finds a large one anywhere, the mean difference
+//! a picture that is slightly too bright everywhere, and the perceptible share a small region that is plainly wrong.
+//! FLIP estimates for each pixel the difference that an observer sees.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use super::flip::flip;
 use crate::base::colour::{linear_from_srgb, luminance};
 use crate::render::{FileKind, Picture, RenderError};
 
-/// A difference of CIELAB colours that an eye just notices side by side (Mahy et al. 1994).
+/// CIELAB difference of colours side by side that an eye just notices (Mahy et al. 1994).
 const PERCEPTIBLE_STEP: f32 = 2.3;
 
 /// Linear pixels, row by row from the top.
@@ -23,23 +23,23 @@ pub struct Raster {
     pub size: [u32; 2],
     /// Linear colours.
     pub pixels: Vec<Vec3>,
-    /// Display colours, whose white is 1, or radiance.
+    /// Kind of the colours: display colours, whose white is 1, or radiance.
     pub kind: FileKind,
 }
 
-/// How far a picture is from a reference.
+/// Difference of a picture from a reference.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// Root mean square of the difference over that of the reference, linear light, all channels.
+    /// Root mean square of the difference divided by that of the reference, in linear light over all channels.
     pub relative_rmse: f32,
-    /// Mean luminance of the picture over that of the reference, less one.
+    /// Mean luminance of the picture divided by that of the reference, minus one.
     pub mean_difference: f32,
     /// Share of pixels whose colour differs by more than an eye just notices.
     pub perceptible_share: f32,
 }
 
 impl Raster {
-    /// What a file of `kind` would hold of a picture.
+    /// Returns the colours that a file of `kind` would hold of a picture.
     #[must_use]
     pub fn of(picture: &Picture, kind: FileKind) -> Self {
         match kind {
@@ -48,7 +48,7 @@ impl Raster {
         }
     }
 
-    /// What a picture displays; white is 1.
+    /// Returns the display colours of a picture; white is 1.
     #[must_use]
     pub fn displayed(picture: &Picture) -> Self {
         let channel = |byte: u8| linear_from_srgb(f32::from(byte) / 255.0);
@@ -57,7 +57,7 @@ impl Raster {
         Self { size: [picture.width, picture.height], pixels, kind: FileKind::Display }
     }
 
-    /// The radiance of a picture, before exposure.
+    /// Returns the radiance of a picture, before exposure.
     #[must_use]
     pub fn radiance(picture: &Picture) -> Self {
         let pixels = picture.radiance.iter().map(|&[r, g, b, _]| Vec3::new(r, g, b)).collect();
@@ -80,7 +80,8 @@ impl Raster {
         Ok(Self { size, pixels, kind })
     }
 
-    /// The value of white: 1 for display colours; for radiance five times the mean luminance, a usual exposure.
+    /// Returns the value of white: 1 for display colours, five times the mean luminance for radiance (a usual
+    /// exposure).
     fn white(&self) -> f32 {
         match self.kind {
             FileKind::Display => 1.0,
@@ -92,12 +93,12 @@ impl Raster {
     }
 }
 
-/// Linear colours of sRGB-encoded ones.
+/// Decodes sRGB-encoded colours to linear ones.
 fn decoded(pixels: Vec<Vec3>) -> Vec<Vec3> {
     pixels.into_iter().map(|pixel| Vec3::from(pixel.to_array().map(linear_from_srgb))).collect()
 }
 
-/// How far `picture` is from `reference`.
+/// Computes the difference of `picture` from `reference`.
 ///
 /// # Errors
 /// Returns an error if the sizes differ.
@@ -119,8 +120,8 @@ pub fn compare(picture: &Raster, reference: &Raster) -> Result<Difference, Rende
     })
 }
 
-/// The FLIP error of each pixel, from 0 (equal) to 1. Radiance is exposed so that five times the mean of the reference is
-/// white.
+/// Computes the FLIP error of each pixel, from 0 (equal) to 1. Radiance is exposed so that five times the mean of the
+/// reference is white.
 ///
 /// # Errors
 /// Returns an error if the sizes differ.
@@ -139,18 +140,18 @@ fn check_sizes(picture: &Raster, reference: &Raster) -> Result<(), RenderError> 
     Err(RenderError::SizesDiffer { a: picture.size, b: reference.size })
 }
 
-/// `part / whole`; 0 / 0 is 0.
+/// Returns `part / whole`; 0 / 0 is 0.
 fn ratio(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }
 
-/// The colours differ by more than an eye just notices, or one of them is not a number.
+/// Returns true if the colours differ by more than an eye just notices, or one of them is not a number.
 pub fn is_perceptible(a: Vec3, b: Vec3, white: f32) -> bool {
     let distance = (lab(a / white) - lab(b / white)).length();
     distance.is_nan() || distance > PERCEPTIBLE_STEP
 }
 
-/// CIELAB of a linear Rec. 709 colour relative to white (CIE 15).
+/// Returns the CIELAB values of a linear Rec. 709 colour relative to white (CIE 15).
 fn lab(colour: Vec3) -> Vec3 {
     let x = colour.dot(Vec3::new(0.4124, 0.3576, 0.1805)) / 0.9505;
     let y = luminance(colour);

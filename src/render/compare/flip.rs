@@ -1,14 +1,14 @@
-//! FLIP: the difference that an observer sees who flips between two pictures.
+//! FLIP: estimates the difference that an observer sees who alternates between two pictures.
 //!
-//! Both pictures are converted to an opponent colour space, filtered by the contrast sensitivity of the eye at a viewing
-//! distance, and compared in CIELAB with the HyAB metric, which gives a colour difference dC in 0..1. Edge and point detectors
-//! give a feature difference dF. The error of a pixel is
+//! Both pictures are converted to an opponent colour space and filtered by the contrast sensitivity of the eye at a
+//! viewing distance. They are compared in CIELAB with the HyAB metric, which yields a colour difference dC in 0..1.
+//! Edge and point detectors yield a feature difference dF. The error of a pixel is
 //!
 //! ```text
 //! dE = dC^(1 - dF)
 //! ```
 //!
-//! so a colour difference counts more where one picture has a feature that the other lacks.
+//! So a colour difference counts more where one picture has a feature that the other lacks.
 //!
 //! Source: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild 2020, "FLIP: A Difference Evaluator for
 //! Alternating Images" (sections and constants are those of the paper).
@@ -20,25 +20,26 @@ use rayon::prelude::*;
 
 use crate::base::colour::linear_from_srgb;
 
-/// Of a screen 0.7 m wide with 3840 pixels, seen from 0.7 m.
+/// Pixels per degree of a screen 0.7 m wide with 3840 pixels, seen from 0.7 m.
 const PIXELS_PER_DEGREE: f32 = 67.02;
 
 /// Exponents of the colour and of the feature difference (sections 4.1.3 and 4.3).
 const COLOUR_EXPONENT: f32 = 0.7;
 const FEATURE_EXPONENT: f32 = 0.5;
 
-/// Share of the largest colour difference that is mapped to [`FULL_VALUE`]; larger ones share the rest (section 4.1.3).
+/// Share of the largest colour difference that is mapped to [`FULL_VALUE`]. Larger differences are mapped to the rest
+/// of the range (section 4.1.3).
 const FULL_SHARE: f32 = 0.4;
 const FULL_VALUE: f32 = 0.95;
 
 /// Width of the detected features, degrees (section 4.2).
 const FEATURE_WIDTH: f32 = 0.082;
 
-/// XYZ of white (D65) as the linear Rec. 709 matrix gives it.
+/// XYZ of white (D65), as computed by the linear Rec. 709 matrix.
 const WHITE: Vec3 = Vec3::new(0.950_428_55, 1.0, 1.088_900_3);
 
-/// The FLIP error of each pixel, from 0 (equal) to 1. Both pictures have `width` pixels a row of linear display colours with
-/// white at 1.
+/// Computes the FLIP error of each pixel, from 0 (equal) to 1. Both pictures have `width` pixels a row. Their colours
+/// are linear display colours with white at 1.
 ///
 /// Shapes: `picture` and `reference` `[pixel]`, row by row.
 #[must_use]
@@ -54,9 +55,9 @@ pub fn flip(picture: &[Vec3], reference: &[Vec3], width: usize) -> Vec<f32> {
     (0..reference.len()).map(pixel).collect()
 }
 
-/// A picture as the eye perceives it.
+/// A picture as the eye perceives it: blurred colours and strengths of features.
 struct Seen {
-    /// Blurred, in CIELAB with Hunt's adjustment.
+    /// Blurred colours, in CIELAB with Hunt's adjustment.
     colours: Vec<Vec3>,
     /// Strength of edges and of points.
     features: Vec<[f32; 2]>,
@@ -74,7 +75,7 @@ impl Seen {
     }
 }
 
-/// XYZ of linear Rec. 709.
+/// Returns the matrix from linear Rec. 709 to XYZ.
 fn xyz_from_linear() -> Mat3 {
     Mat3::from_cols(
         Vec3::new(0.412_390_8, 0.212_639, 0.019_330_82),
@@ -83,7 +84,7 @@ fn xyz_from_linear() -> Mat3 {
     )
 }
 
-/// YCxCz: lightness, red against green, blue against yellow.
+/// Returns YCxCz: lightness, red against green, blue against yellow.
 fn opponent(linear: Vec3) -> Vec3 {
     let [x, y, z] = (xyz_from_linear() * linear / WHITE).to_array();
     Vec3::new(116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z))
@@ -95,7 +96,7 @@ fn linear_from_opponent(colour: Vec3) -> Vec3 {
     xyz_from_linear().inverse() * (xyz * WHITE)
 }
 
-/// CIELAB of a linear colour.
+/// Returns the CIELAB values of a linear colour.
 fn lab(linear: Vec3) -> Vec3 {
     const DELTA: f32 = 6.0 / 29.0;
     let bent = |t: f32| if t > DELTA.powi(3) { t.cbrt() } else { t / (3.0 * DELTA * DELTA) + 4.0 / 29.0 };
@@ -103,13 +104,13 @@ fn lab(linear: Vec3) -> Vec3 {
     Vec3::new(116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z))
 }
 
-/// The Hunt effect: dark colours appear less saturated.
+/// Applies the Hunt effect: dark colours appear less saturated.
 fn hunt(lab: Vec3) -> Vec3 {
     let paleness = 0.01 * lab.x;
     Vec3::new(lab.x, paleness * lab.y, paleness * lab.z)
 }
 
-/// HyAB distance, for colours that may be far apart (Abasi et al. 2020): |dL| + length(da, db).
+/// Returns the HyAB distance, for colours that may be far apart (Abasi et al. 2020): |dL| + length(da, db).
 fn hyab(a: Vec3, b: Vec3) -> f32 {
     let apart = a - b;
     apart.x.abs() + Vec2::new(apart.y, apart.z).length()
@@ -125,11 +126,11 @@ fn spread(difference: f32, largest: f32) -> f32 {
     }
 }
 
-/// A picture filtered by the contrast sensitivity of the eye, channel by channel (section 4.1.1, table 1).
+/// Filters a picture by the contrast sensitivity of the eye, channel by channel (section 4.1.1, table 1).
 fn blurred(opponent: &[Vec3], width: usize) -> Vec<Vec3> {
     /// Amplitudes and widths of the Gaussians that make up the contrast sensitivity of a channel.
     const SENSITIVITY: [&[[f32; 2]]; 3] = [&[[1.0, 0.0047]], &[[1.0, 0.0053]], &[[34.1, 0.04], [13.5, 0.025]]];
-    /// Pixels beyond which the widest Gaussian is negligible.
+    /// Radius in pixels beyond which the widest Gaussian is negligible.
     const RADIUS: i32 = 10;
     let channel = |k: usize| -> Vec<f32> {
         let values: Vec<f32> = opponent.iter().map(|colour| colour[k]).collect();
@@ -149,7 +150,7 @@ fn blurred(opponent: &[Vec3], width: usize) -> Vec<Vec3> {
     y.into_iter().zip(cx.into_iter().zip(cz)).map(|(y, (cx, cz))| Vec3::new(y, cx, cz)).collect()
 }
 
-/// Strength of edges and of points of a picture in shades of grey (section 4.2).
+/// Computes the strength of edges and of points in a greyscale picture (section 4.2).
 fn features(lightness: &[f32], width: usize) -> Vec<[f32; 2]> {
     let deviation = 0.5 * FEATURE_WIDTH * PIXELS_PER_DEGREE;
     let radius = (3.0 * deviation).ceil() as i32;
@@ -165,7 +166,7 @@ fn features(lightness: &[f32], width: usize) -> Vec<[f32; 2]> {
     strength(&edge).into_iter().zip(strength(&point)).map(|(edge, point)| [edge, point]).collect()
 }
 
-/// Values of a function at whole pixels.
+/// Returns the values of a function at whole pixels.
 fn kernel(radius: i32, value: impl Fn(f32) -> f32) -> Vec<f32> {
     (-radius..=radius).map(|x| value(x as f32)).collect()
 }
@@ -188,7 +189,7 @@ fn balanced(kernel: Vec<f32>) -> Vec<f32> {
         .collect()
 }
 
-/// Convolution with a kernel along rows and another along columns; the border pixels are repeated outwards.
+/// Convolves with one kernel along rows and another along columns. The border pixels are repeated outwards.
 fn convolved(values: &[f32], width: usize, along_row: &[f32], along_column: &[f32]) -> Vec<f32> {
     let height = values.len() / width;
     let weighted = |kernel: &[f32], at: usize, size: usize, value: &dyn Fn(usize) -> f32| -> f32 {
@@ -208,7 +209,7 @@ fn convolved(values: &[f32], width: usize, along_row: &[f32], along_column: &[f3
         .collect()
 }
 
-/// The linear colour of a difference from 0 to 1: matplotlib's magma map, by the polynomials of Zucker.
+/// Returns the linear colour of a difference from 0 to 1: matplotlib's magma map, by the polynomials of Zucker.
 #[must_use]
 pub fn magma(difference: f32) -> Vec3 {
     const FACTORS: [[f32; 3]; 7] = [

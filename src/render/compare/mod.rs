@@ -1,4 +1,4 @@
-//! How far two pictures differ: in three numbers, and pixel by pixel as an eye sees it.
+//! Difference of two pictures: as three numbers, and for each pixel as an eye sees it.
 
 mod difference;
 pub mod flip;

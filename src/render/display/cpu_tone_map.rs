@@ -1,4 +1,4 @@
-//! Exposure and tone mapping on the CPU, for pictures that rays have made.
+//! Exposure and tone mapping on the CPU, for ray-traced pictures.
 //!
 //! The formulas are those of `shaders/display/light_meter.wgsl` and `shaders/display/tone_map.wgsl`; a test compares the
 //! results. The exposure is
@@ -7,8 +7,8 @@
 //! exposure = min(0.2 / exp2(mean of log2 L), 1.5 / L at the 95th percentile)
 //! ```
 //!
-//! which places the log-average luminance at middle grey (Reinhard et al. 2002, "Photographic Tone Reproduction for Digital
-//! Images", eq. 1) unless the brightest twentieth of the pixels would then exceed one and a half times white.
+//! It places the log-average luminance at middle grey (Reinhard et al. 2002, "Photographic Tone Reproduction for
+//! Digital Images", eq. 1), unless the brightest twentieth of the pixels would then exceed one and a half times white.
 
 use glam::Vec3;
 
@@ -24,8 +24,8 @@ const MIDDLE_GREY: f32 = 0.2;
 const HIGHLIGHT_SHARE: f32 = 0.95;
 const HIGHLIGHT: f32 = 1.5;
 
-/// Returns a picture of `size` pixels from linear radiance before exposure, premultiplied by the fourth channel, which is
-/// the covered share of the pixel.
+/// Returns a picture of `size` pixels. `radiance` is linear and before exposure; it is premultiplied by its fourth
+/// channel, the covered share of the pixel.
 #[must_use]
 pub fn tone_map_on_cpu(size: [u32; 2], radiance: Vec<[f32; 4]>, settings: &RenderSettings) -> Picture {
     let exposure = settings.fixed_exposure().unwrap_or_else(|| metered(size, &radiance));
@@ -37,7 +37,7 @@ pub fn tone_map_on_cpu(size: [u32; 2], radiance: Vec<[f32; 4]>, settings: &Rende
     Picture { width: size[0], height: size[1], radiance, display }
 }
 
-/// The metered exposure, a factor on radiance.
+/// Returns the metered exposure, a factor on radiance.
 fn metered(size: [u32; 2], radiance: &[[f32; 4]]) -> f32 {
     let histogram = histogram(size[0] as usize, radiance);
     let counted = || histogram.iter().enumerate().skip(1);
@@ -55,7 +55,7 @@ fn metered(size: [u32; 2], radiance: &[[f32; 4]]) -> f32 {
     (MIDDLE_GREY / (log_sum / total as f32).exp2()).min(HIGHLIGHT / highlight)
 }
 
-/// Histogram of log2 luminance over every other pixel of every other row; bin 0 counts the dark ones.
+/// Returns the histogram of log2 luminance over every other pixel of every other row. Bin 0 counts the dark pixels.
 fn histogram(width: usize, radiance: &[[f32; 4]]) -> [u32; NUM_BINS] {
     let mut bins = [0; NUM_BINS];
     for row in radiance.chunks(width).step_by(STEP) {
@@ -72,7 +72,7 @@ fn log2_of_bin(bin: usize) -> f32 {
     (bin as f32 + 0.5) / BINS_PER_STOP + DARKEST
 }
 
-/// RGBA bytes of a pixel: exposure, tone curve, background, sRGB encoding, dither.
+/// Returns the RGBA bytes of a pixel: exposure, tone curve, background, sRGB encoding, dither.
 fn display_bytes([r, g, b, coverage]: [f32; 4], at: [u32; 2], exposure: f32, settings: &RenderSettings) -> [u8; 4] {
     let exposed = Vec3::new(r, g, b) * exposure;
     let toned = match settings.tone_map_in_force() {
@@ -85,7 +85,7 @@ fn display_bytes([r, g, b, coverage]: [f32; 4], at: [u32; 2], exposure: f32, set
     [byte(shown.x), byte(shown.y), byte(shown.z), 255]
 }
 
-/// Interleaved gradient noise in -0.49..0.49, as in shaders/display/tone_map.wgsl.
+/// Returns interleaved gradient noise in -0.49..0.49, as in shaders/display/display_colour.wgsl.
 fn gradient_noise([x, y]: [u32; 2]) -> f32 {
     let pattern = (x as f32 * 0.067_110_56 + y as f32 * 0.005_837_15).fract();
     (52.982_92 * pattern).fract() * 0.98 - 0.49

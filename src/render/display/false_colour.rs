@@ -11,7 +11,7 @@ pub struct LuxScale {
     pub low: f32,
     /// Illuminance of the last colour, lux.
     pub high: f32,
-    /// Equal ratios take equal lengths of the scale, instead of equal differences.
+    /// True if equal ratios take equal lengths of the scale, false if equal differences do.
     pub is_logarithmic: bool,
     /// Number of equal parts that lines of equal illuminance divide the scale into; 0 draws no lines.
     pub num_parts: u32,
@@ -24,31 +24,31 @@ impl Default for LuxScale {
 }
 
 impl LuxScale {
-    /// Smallest illuminance that a logarithmic scale begins with, lux.
+    /// Smallest illuminance at which a logarithmic scale can begin, lux.
     const LEAST: f32 = 1e-3;
 
-    /// The scale with its ends in order and distinct.
+    /// Returns the scale with its ends in order and distinct.
     #[must_use]
     pub fn in_order(self) -> Self {
         let low = if self.is_logarithmic { self.low.max(Self::LEAST) } else { self.low.max(0.0) };
         Self { low, high: self.high.max(low * 1.01 + Self::LEAST), ..self }
     }
 
-    /// Illuminance at a place of the scale, 0..1.
+    /// Returns the illuminance at a place of the scale, 0..1.
     #[must_use]
     pub fn lux_at(&self, place: f32) -> f32 {
         let Self { low, high, .. } = self.in_order();
         if self.is_logarithmic { low * (high / low).powf(place) } else { low + (high - low) * place }
     }
 
-    /// `lux_scale` of shaders/shared/frame.wgsl.
+    /// Returns `lux_scale` of shaders/shared/frame.wgsl.
     pub(in crate::render) fn uniform(&self) -> Vec4 {
         let Self { low, high, .. } = self.in_order();
         Vec4::new(low, high, f32::from(u8::from(self.is_logarithmic)), self.num_parts as f32)
     }
 }
 
-/// The sRGB bytes of the Turbo colour map at `x` in 0..1.
+/// Returns the sRGB bytes of the Turbo colour map at `x` in 0..1.
 ///
 /// Source: Mikhailov 2019, "Turbo, An Improved Rainbow Colormap for Visualization" (its polynomial).
 #[must_use]

@@ -1,4 +1,4 @@
-//! Light meter: the exposure that suits a picture, computed on the GPU so that no frame waits for it.
+//! Light meter: computes the exposure of a picture on the GPU, so no frame waits for it.
 //!
 //! A histogram of log2 luminance gives the log-average, which is placed at middle grey, 0.2 of white (Reinhard et al. 2002,
 //! "Photographic Tone Reproduction for Digital Images", eq. 1), unless the brightest twentieth of the pixels would exceed one
@@ -14,20 +14,20 @@ pub(in crate::render) const METER: Shader =
 
 /// `NUM_BINS` of shaders/display/light_meter.wgsl.
 const NUM_BINS: u64 = 256;
-/// Invocations of a compute group each way.
+/// Width and height of a compute group, invocations.
 const GROUP: u32 = 16;
 
-/// What the light meter reads.
+/// Input of the light meter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MeterInput {
     /// Radiance and coverage.
     Radiance,
-    /// Luminance alone, of a picture whose surface pass writes display colours.
+    /// Luminance alone, of a picture whose surface pass writes display colours directly.
     Luminance,
 }
 
 impl MeterInput {
-    /// Pixels from one that is counted to the next, each way.
+    /// Returns the distance between counted pixels, along rows and along columns.
     fn step(self) -> u32 {
         match self {
             MeterInput::Radiance => 2,
@@ -47,7 +47,7 @@ pub struct LightMeter {
 }
 
 impl LightMeter {
-    /// Pipelines and histogram, for a result in `exposure`.
+    /// Creates pipelines and histogram. The result is written to `exposure`.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, exposure: wgpu::Buffer) -> Self {
         let module = METER.module(gpu);
         let layout = bind_group_layout(gpu);
@@ -79,17 +79,18 @@ impl LightMeter {
         }
     }
 
-    /// One f32: displayed = radiance times this; 0 before anything was metered.
+    /// Returns the buffer of the exposure, one f32: displayed = radiance times this. It is 0 before anything was
+    /// metered.
     pub fn exposure(&self) -> &wgpu::Buffer {
         &self.exposure
     }
 
-    /// The buffer of an exposure that was not metered yet.
+    /// Creates the buffer of an exposure that was not metered yet.
     pub fn new_exposure(gpu: &Gpu) -> wgpu::Buffer {
         storage(gpu, "metered exposure", 4)
     }
 
-    /// Meters the last picture.
+    /// Meters the last picture: computes its exposure.
     pub fn draw(
         &self,
         gpu: &Gpu,

@@ -1,4 +1,4 @@
-//! From radiance to what the screen shows: exposure, tone mapping, false colours.
+//! Converts radiance to display colours: exposure, tone mapping, false colours.
 
 pub mod cpu_tone_map;
 pub mod false_colour;

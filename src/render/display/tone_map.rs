@@ -1,7 +1,7 @@
-//! Tone mapping pass: converts the HDR picture to display colours in the caller's target.
+//! Tone mapping pass: converts the HDR picture to display colours and writes them to the caller's target.
 //!
-//! Each sample is exposed, mapped, and blended with the background before the samples of a pixel are averaged, so that the
-//! edges of bright lamps stay smooth. The curve itself is in `shaders/display/display_colour.wgsl`.
+//! Each sample is exposed, mapped, and blended with the background, and then the samples of a pixel are averaged. In
+//! this order the edges of bright lamps stay smooth. The curve itself is in `shaders/display/display_colour.wgsl`.
 
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
@@ -33,7 +33,7 @@ pub struct ToneMapPass {
 }
 
 impl ToneMapPass {
-    /// A pipeline into targets of `output_format` from HDR pictures with `samples` samples a pixel.
+    /// Creates a pipeline into targets of `output_format` from HDR pictures with `samples` samples a pixel.
     pub fn new(
         gpu: &Gpu,
         frame_layout: &wgpu::BindGroupLayout,
@@ -73,7 +73,7 @@ impl ToneMapPass {
         Self { layout, pipeline }
     }
 
-    /// Draws the whole of `target`, which has the size of `targets`.
+    /// Fills `target`, which has the size of `targets`.
     pub fn draw(
         &self,
         gpu: &Gpu,

@@ -1,7 +1,7 @@
 //! A lit scene on the device: triangles in batches of one material, and the light of their vertices.
 //!
-//! Positions, textures and materials stay as they are uploaded; only the light is written again, while a bake runs or
-//! when a lamp is dimmed by solving anew.
+//! Positions, textures and materials are uploaded once. Only the light is written again: while a bake runs, or when the
+//! scene is solved again with a dimmed lamp.
 
 use std::sync::PoisonError;
 
@@ -25,11 +25,11 @@ use crate::scene::Scene;
 pub struct SceneBuffers {
     /// [`GpuVertex`] of each vertex, in the order in which triangles use them.
     pub vertices: wgpu::Buffer,
-    /// Three u32 a triangle, batch by batch.
+    /// Three u32 a triangle, ordered by batch.
     pub indices: wgpu::Buffer,
     /// Bind groups of the materials `[m]`.
     pub materials: Vec<wgpu::BindGroup>,
-    /// Triangles by material, those that blend last.
+    /// Triangles by material; those that blend come last.
     pub batches: Vec<DrawBatch>,
     /// The same surfaces in fewer triangles if the scene is a bake.
     pub tiled: Option<TiledMesh>,
@@ -67,38 +67,38 @@ impl SceneBuffers {
         buffers
     }
 
-    /// Number of light groups.
+    /// Returns the number of light groups.
     #[must_use]
     pub fn num_groups(&self) -> usize {
         self.light.num_groups
     }
 
-    /// Number of vertices of the mesh.
+    /// Returns the number of vertices of the mesh.
     #[must_use]
     pub fn num_vertices(&self) -> usize {
         self.light.num_vertices
     }
 
-    /// The irradiance: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in the order of
+    /// Returns the irradiance: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in the order of
     /// [`Self::vertices`].
     #[must_use]
     pub fn irradiance(&self) -> &wgpu::Buffer {
         &self.light.irradiance
     }
 
-    /// The state of the light.
+    /// Returns the version of the light, which changes with each write.
     #[must_use]
     pub fn light_version(&self) -> LightVersion {
         self.light.version()
     }
 
-    /// Replaces the light. The mesh stays the same; groups that `light` lacks keep theirs.
+    /// Replaces the light. The mesh is unchanged, and groups that `light` lacks keep their light.
     pub fn set_light(&self, gpu: &Gpu, light: &VertexLight) {
         self.light.write(gpu, &self.vertex_order, light, |_| ());
     }
 
-    /// As [`Self::set_light`], but submits part by part and calls `rest` after each: a frame of another thread waits for one
-    /// part at most.
+    /// Replaces the light as [`Self::set_light`], but submits it part by part and calls `rest` after each part. So a
+    /// frame of another thread waits for one part at most.
     pub fn set_light_in_parts(&self, gpu: &Gpu, light: &VertexLight, rest: impl Fn()) {
         self.light.write(gpu, &self.vertex_order, light, |gpu| {
             gpu.queue.submit([]);
@@ -106,14 +106,15 @@ impl SceneBuffers {
         });
     }
 
-    /// Makes the next picture fill the tiles of the coarse mesh again, as after a change of the shader that fills them.
+    /// Forces the next picture to fill the tiles of the coarse mesh again, as after a change of the shader that fills
+    /// them.
     pub fn forget_tiles(&self) {
         if let Some(tiled) = &self.tiled {
             *tiled.tiles.held.lock().unwrap_or_else(PoisonError::into_inner) = None;
         }
     }
 
-    /// Indices and batches of the coarse mesh if there is one, else of the elements.
+    /// Returns indices and batches of the coarse mesh if there is one, else those of the elements.
     #[must_use]
     pub fn coarsest(&self) -> (&wgpu::Buffer, &[DrawBatch]) {
         match &self.tiled {
@@ -122,7 +123,7 @@ impl SceneBuffers {
         }
     }
 
-    /// The vertices that a batch indexes.
+    /// Returns the vertices that a batch indexes.
     #[must_use]
     pub fn vertices_of(&self, batch: &DrawBatch) -> &wgpu::Buffer {
         let tiled = self.tiled.as_ref().filter(|_| batch.is_tiled);

@@ -1,4 +1,4 @@
-//! What is drawn in one call, and the chunks that culling selects from it.
+//! Triangles that are drawn in one call, and the chunks that culling selects from them.
 
 use std::ops::Range;
 
@@ -9,19 +9,19 @@ use crate::scene::AlphaMode;
 /// Triangles that are drawn in one call.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawBatch {
-    /// Their part of the index buffer.
+    /// Range of their indices in the index buffer.
     pub indices: Range<u32>,
     /// Their material.
     pub material: MaterialId,
-    /// How its alpha acts.
+    /// Alpha mode of the material.
     pub alpha_mode: AlphaMode,
-    /// Which faces exist.
+    /// Faces of the triangles that are surfaces.
     pub faces: Faces,
-    /// Its material has textures.
+    /// True if the material has textures.
     pub has_textures: bool,
-    /// Its material shows its base colour as it is, without light (`KHR_materials_unlit`).
+    /// True if the material shows its base colour without light (`KHR_materials_unlit`).
     pub is_unlit: bool,
-    /// Its light is in tiles, not at its vertices.
+    /// True if the light is in tiles, false if it is at the vertices.
     pub is_tiled: bool,
 }
 
@@ -37,7 +37,8 @@ pub enum Faces {
 }
 
 impl Faces {
-    /// Nothing is drawn of the back. Single-sided surfaces are invisible from behind if `cull_back` is set.
+    /// Returns true if backs are not drawn. The backs of single-sided surfaces are drawn black unless `cull_back` is
+    /// set.
     #[must_use]
     pub fn are_culled(self, cull_back: bool) -> bool {
         match self {
@@ -48,12 +49,12 @@ impl Faces {
     }
 }
 
-/// Neighbouring triangles of one batch, which culling keeps or drops as one.
+/// Neighbouring triangles of one batch, which culling keeps or drops together.
 #[derive(Clone, Debug)]
 pub(super) struct Chunk {
     /// Index of the batch.
     pub batch: usize,
-    /// Their part of the index buffer.
+    /// Range of their indices in the index buffer.
     pub indices: Range<u32>,
     /// Box round them.
     pub bounds: Bounds,

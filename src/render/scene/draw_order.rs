@@ -1,4 +1,4 @@
-//! The order in which triangles are drawn: by material, blending ones last, neighbours together.
+//! Sorts triangles for drawing: by material, blending ones last, neighbours next to each other.
 
 use wgpu::util::DeviceExt;
 
@@ -17,15 +17,15 @@ pub(super) struct DrawOrder {
 
 /// Triangles of a mesh, some of which have their light in tiles.
 pub(super) struct MeshTriangles<'a> {
-    /// Triangles of a scene's vertices and materials.
+    /// Triangles that index a scene's vertices and materials.
     pub triangles: &'a [Triangle],
-    /// Number of triangles, the first of them, whose light is in tiles.
+    /// Number of triangles whose light is in tiles. They come first.
     pub num_tiled: usize,
 }
 
 impl MeshTriangles<'_> {
-    /// Sorts the triangles that `is_shown` returns true for by material, those that blend last, and cuts them into batches and
-    /// chunks.
+    /// Sorts the triangles for which `is_shown` returns true by material, those that blend last, and cuts them into
+    /// batches and chunks.
     pub fn order(&self, scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> DrawOrder {
         let has_twins = scene.sides.has_backs();
         let material_of = |id: &TriangleId| self.triangles[id.index()].material;
@@ -37,7 +37,7 @@ impl MeshTriangles<'_> {
         triangles.sort_by_key(key);
         let mut order = DrawOrder { batches: Vec::new(), chunks: Vec::new(), triangles: Vec::new() };
         for same in triangles.chunk_by(|a, b| key(a) == key(b)) {
-            // Triangles that blend keep the order of the file.
+            // Triangles that blend stay in the order of the file.
             let same = if blends(&same[0]) { same.to_vec() } else { spatial_order(corners, same.iter().copied()) };
             let start = 3 * order.triangles.len() as u32;
             let triangle_at = |place: usize| start + 3 * place.min(same.len()) as u32;
@@ -69,13 +69,13 @@ impl MeshTriangles<'_> {
 }
 
 impl DrawOrder {
-    /// The index buffer: three vertices a triangle.
+    /// Returns the index buffer: three vertices a triangle.
     pub fn indices(&self, vertices: impl Fn(TriangleId) -> [u32; 3]) -> Vec<u32> {
         self.triangles.iter().flat_map(|&id| vertices(id)).collect()
     }
 }
 
-/// The triangles of a scene in the order of drawing, with three vertices each.
+/// Returns the triangles of a scene in the order of drawing, and three vertex indices for each.
 pub(super) fn draw_order(scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> (DrawOrder, Vec<u32>) {
     let order = MeshTriangles { triangles: &scene.triangles, num_tiled: 0 }.order(scene, is_shown);
     let indices = order.indices(|id| scene.triangles[id.index()].vertices);

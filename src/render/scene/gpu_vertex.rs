@@ -1,11 +1,11 @@
-//! A vertex as the vertex buffer holds it.
+//! Layout of a vertex in the vertex buffer.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec2, Vec3};
 
 use crate::scene::Vertex;
 
-/// A vertex as the vertex buffer holds it.
+/// A vertex in the vertex buffer.
 #[repr(C)]
 #[derive(Clone, Copy, Default, Pod, Zeroable)]
 pub struct GpuVertex {

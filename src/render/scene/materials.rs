@@ -1,4 +1,4 @@
-//! Materials on the device: a bind group each, with numbers and textures.
+//! Uploads materials: one bind group each, with numbers and textures.
 
 use bytemuck::{Pod, Zeroable};
 use glam::{Vec3, Vec4};
@@ -68,7 +68,8 @@ impl SlotUniform {
     }
 }
 
-/// Layout of a material's bind group: uniform, then texture and sampler of base colour, metallic-roughness, emission.
+/// Creates the layout of a material's bind group: uniform, then texture and sampler of base colour, metallic-roughness,
+/// emission.
 #[must_use]
 pub fn material_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
@@ -91,7 +92,7 @@ pub fn material_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     gpu.device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor { label: Some("material"), entries: &entries })
 }
 
-/// Bind groups of all materials `[m]`.
+/// Creates the bind groups of all materials `[m]`.
 #[must_use]
 pub fn material_bind_groups(gpu: &Gpu, scene: &Scene) -> Vec<wgpu::BindGroup> {
     let layout = material_layout(gpu);

@@ -1,11 +1,11 @@
-//! Mip maps, computed on the CPU in linear light: the mean of sRGB-encoded bytes is too dark.
+//! Mip maps, computed on the CPU in linear light. A mean of sRGB-encoded bytes would be too dark.
 
 use glam::Vec4;
 use rayon::prelude::*;
 
 use crate::base::colour::{srgb_byte_table, srgb_from_linear};
 
-/// What the bytes of an image mean.
+/// Meaning of the bytes of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Encoding {
     /// Colour, sRGB encoded; alpha is linear.
@@ -25,7 +25,7 @@ pub struct Level {
     pub rgba: Vec<u8>,
 }
 
-/// All levels of an image down to one texel, beginning with the first that is at most `max_size` wide and high.
+/// Returns all levels of an image down to one texel, beginning with the first that is at most `max_size` wide and high.
 #[must_use]
 pub fn mip_chain(width: u32, height: u32, rgba: &[u8], encoding: Encoding, max_size: u32) -> Vec<Level> {
     let mut linear = Linear::decode(width, height, rgba, encoding);
@@ -74,7 +74,8 @@ impl Linear {
         Level { width: self.width, height: self.height, rgba: rgba.collect() }
     }
 
-    /// Half the size, rounded down, by the exact mean over areas; for an odd side, texels count in fractions.
+    /// Returns the image at half the size, rounded down, by exact means over areas. For an odd side, texels count in
+    /// fractions.
     fn halved(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let columns: Vec<_> = (0..width).map(|x| footprint(x, width, self.width)).collect();
@@ -99,7 +100,7 @@ impl Linear {
     }
 }
 
-/// The texels under one texel of the next level along one axis, at most three, and their shares.
+/// The texels under one texel of the next level along one axis, at most three, and their weights.
 struct Footprint {
     first: usize,
     weights: [f32; 3],
@@ -118,7 +119,7 @@ fn footprint(index: u32, size: u32, source_size: u32) -> Footprint {
     let first = low.floor();
     let weights = std::array::from_fn(|i| {
         let (left, right) = (first + i as f32, first + i as f32 + 1.0);
-        // A share below a thousandth is a rounding error, and its texel may lie outside the image.
+        // A weight below a thousandth is a rounding error, and its texel may lie outside the image.
         let share = (right.min(high) - left.max(low)) / ratio;
         if share > 1e-3 { share } else { 0.0 }
     });

@@ -1,8 +1,7 @@
 //! The lit scene on the device: vertices, triangles in batches of one material, textures, and the light of the vertices.
 //!
-//! A [`SceneBuffers`] holds all of it. `selection` makes the part of it that a camera may see, or that remains when
-//! instances are hidden; [`tiled_mesh`] draws a bake with its coarse mesh. The passes above read these buffers and own none
-//! of them.
+//! A [`SceneBuffers`] holds all of it. `selection` makes the part that a camera may see, or that remains when instances
+//! are hidden. [`tiled_mesh`] draws a bake with its coarse mesh. The passes read these buffers and own none of them.
 
 pub mod buffers;
 pub mod cull_view;

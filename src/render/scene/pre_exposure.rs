@@ -6,13 +6,14 @@
 
 use crate::baked::{BakedScene, VertexLight};
 
-/// Radiance of the brightest lamp after scaling: half floats hold four times as much.
+/// Largest radiance of a lamp after scaling. Half floats hold four times as much.
 const COMFORTABLE_RADIANCE: f32 = 16_384.0;
-/// Typical radiance of surfaces after scaling: half floats hold light a thousand times as strong or as weak.
+/// Range of the typical radiance of surfaces after scaling. Half floats hold light a thousand times as strong or as
+/// weak.
 const COMFORTABLE_SURFACES: std::ops::RangeInclusive<f32> = 1.0 / 1024.0..=64.0;
 
-/// A scale that brings the brightest lamp below [`COMFORTABLE_RADIANCE`] but keeps lit surfaces within
-/// [`COMFORTABLE_SURFACES`]; 1 if both are so already.
+/// Returns a power of two that brings the brightest lamp below [`COMFORTABLE_RADIANCE`] but keeps lit surfaces within
+/// [`COMFORTABLE_SURFACES`]; 1 if both hold already.
 pub(super) fn pre_exposure(baked: &BakedScene) -> f32 {
     let lamps = baked.scene.materials.iter().map(|material| material.emission.max_element());
     let for_lamps = (COMFORTABLE_RADIANCE / lamps.fold(0.0, f32::max)).min(1.0);
@@ -22,9 +23,10 @@ pub(super) fn pre_exposure(baked: &BakedScene) -> f32 {
     scale.log2().floor().exp2()
 }
 
-/// Log-average of the radiance E / pi that white paint shows in one part of the light.
+/// Returns the log-average of the radiance E / pi of white paint in one part of the light.
 ///
-/// The logarithm keeps single vertices from deciding: the irradiance of a vertex that touches a point light is unbounded.
+/// The logarithm limits the influence of single vertices: the irradiance of a vertex that touches a point light is
+/// unbounded.
 fn typical_white_radiance(light: &VertexLight) -> f32 {
     let values = light.groups.iter().flat_map(|group| group.direct.iter().chain(&group.indirect));
     let radiances = values.map(|value| value.max_element() / std::f32::consts::PI);

@@ -1,4 +1,5 @@
-//! Parts of a scene on the device that share its buffers: what is in view, and what remains when instances are hidden.
+//! Selects parts of a scene on the device that share its buffers: what is in view, and what remains when instances are
+//! hidden.
 
 use super::SceneBuffers;
 use super::cull_view::CullView;
@@ -10,7 +11,7 @@ use crate::gpu::Gpu;
 use crate::scene::{Scene, Triangle};
 
 impl SceneBuffers {
-    /// The part of the scene that may be in view, in the same buffers.
+    /// Returns the part of the scene that may be in view, in the same buffers.
     #[must_use]
     pub fn in_view(&self, gpu: &Gpu, from: &CullView) -> Self {
         let batches = batches_in_view(&self.batches, &self.chunks, &from.frustum);
@@ -18,8 +19,8 @@ impl SceneBuffers {
         self.sharing_buffers(self.indices.clone(), batches, Vec::new(), tiled)
     }
 
-    /// Only the triangles that `is_shown` returns true for. `scene` must be the scene of these buffers. Both share their
-    /// light: what is written to one is seen in the other.
+    /// Returns the part of the triangles for which `is_shown` returns true. `scene` must be the scene of these buffers.
+    /// Both parts share their light: a write to one changes the other.
     #[must_use]
     pub fn part(&self, gpu: &Gpu, scene: &Scene, is_shown: impl Fn(&Triangle) -> bool) -> Self {
         let (DrawOrder { batches, chunks, .. }, indices) = draw_order(scene, &is_shown);
@@ -28,7 +29,7 @@ impl SceneBuffers {
         self.sharing_buffers(indices, batches, chunks, tiled)
     }
 
-    /// Other triangles of the same vertices.
+    /// Returns other triangles of the same vertices.
     fn sharing_buffers(
         &self,
         indices: wgpu::Buffer,
@@ -50,7 +51,8 @@ impl SceneBuffers {
     }
 }
 
-/// The parts of the batches whose chunks meet the view; consecutive chunks of a batch are one draw.
+/// Returns the parts of the batches whose chunks intersect the view. Consecutive chunks of a batch are drawn in one
+/// call.
 fn batches_in_view(batches: &[DrawBatch], chunks: &[Chunk], frustum: &Frustum) -> Vec<DrawBatch> {
     let mut seen: Vec<DrawBatch> = Vec::new();
     let mut last = None;

@@ -9,10 +9,10 @@ use super::mip::{Encoding, Level, mip_chain};
 use crate::gpu::Gpu;
 use crate::scene::{Image, Sampler, Scene, TextureSlot, Wrap};
 
-/// Most samples along the longer axis of the footprint of a pixel.
+/// Largest number of samples along the longer axis of the footprint of a pixel.
 const ANISOTROPY: u16 = 8;
 
-/// The images that the materials of a scene read, once for each encoding, and its samplers.
+/// The samplers of a scene, and the images that its materials read. An image is uploaded once for each encoding.
 pub struct Textures {
     images: HashMap<(*const Image, Encoding), wgpu::TextureView>,
     samplers: HashMap<Sampler, wgpu::Sampler>,
@@ -20,14 +20,14 @@ pub struct Textures {
 }
 
 impl Textures {
-    /// Holds a white texel and nothing else yet.
+    /// Creates a set that holds only a white texel.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
         let white = [Level { width: 1, height: 1, rgba: vec![255; 4] }];
         Self { images: HashMap::new(), samplers: HashMap::new(), white: upload(gpu, "white", &white, Encoding::Linear) }
     }
 
-    /// The texture and sampler of a slot; the first call uploads the texture. White if there is no slot.
+    /// Returns texture and sampler of a slot. The first call uploads the texture. Without a slot the texture is white.
     pub fn bind(
         &mut self,
         gpu: &Gpu,

@@ -22,17 +22,18 @@ use crate::scene::{AlphaMode, Scene, Triangle, edge_cross};
 /// The coarse mesh of a bake.
 #[derive(Clone)]
 pub struct TiledMesh {
-    /// [`GpuVertex`] of the corners of triangles with tiles; the other triangles use the vertices of the scene.
+    /// [`GpuVertex`] of the corners of triangles with tiles. The other triangles use the vertices of the scene.
     pub vertices: wgpu::Buffer,
-    /// Two triples of f32 for each of these corners: its place in a tile, in the attributes that hold irradiance otherwise.
+    /// Two triples of f32 for each of these corners: its place in a tile. They use the attributes that otherwise hold
+    /// irradiance.
     pub places: wgpu::Buffer,
-    /// Three u32 a triangle, batch by batch.
+    /// Three u32 a triangle, ordered by batch.
     pub indices: wgpu::Buffer,
-    /// Triangles by material, those with tiles apart.
+    /// Triangles by material; those with tiles are in batches of their own.
     pub batches: Vec<DrawBatch>,
-    /// Their light.
+    /// Light of the tiles.
     pub tiles: Arc<Tiles>,
-    /// All triangles in the order of drawing; pictures select from it.
+    /// All triangles in the order of drawing. Each picture selects from it.
     drawing: Arc<Drawing>,
     mesh: Arc<Mesh>,
 }
@@ -40,9 +41,9 @@ pub struct TiledMesh {
 /// Triangles in the order of drawing.
 struct Drawing {
     chunks: Vec<Chunk>,
-    /// Their vertices on the device.
+    /// Vertices of the triangles, as indices on the device.
     triangles: Vec<[u32; 3]>,
-    /// Their planes, positive in front.
+    /// Planes of the triangles, positive in front.
     planes: Vec<Vec4>,
 }
 
@@ -77,7 +78,7 @@ impl TiledMesh {
         }
     }
 
-    /// The triangles that `is_shown` returns true for.
+    /// Returns the triangles for which `is_shown` returns true.
     pub(super) fn part(
         &self,
         gpu: &Gpu,
@@ -90,8 +91,9 @@ impl TiledMesh {
         Self { indices, batches, drawing: Arc::new(drawing), ..self.clone() }
     }
 
-    /// The triangles that may be in view, in each batch the nearest chunks first, so that what they hide is not shaded.
-    /// Culled backs are dropped here, because a software driver transforms every triangle that it is given.
+    /// Returns the triangles that may be in view. In each batch the nearest chunks come first, so that hidden pixels
+    /// are not shaded. Culled backs are dropped here, because a software driver transforms every triangle that it
+    /// receives.
     pub(super) fn in_view(&self, gpu: &Gpu, from: &CullView) -> Self {
         let mut near: Vec<(f32, &Chunk)> =
             self.drawing.chunks.iter().filter_map(|c| Some((from.distance(&c.bounds)?, c))).collect();
@@ -101,7 +103,7 @@ impl TiledMesh {
         for (number, batch) in self.batches.iter().enumerate() {
             let first = 3 * indices.len() as u32;
             let is_culled = batch.faces.are_culled(from.cull_back);
-            // Triangles that blend keep the order of the file.
+            // Triangles that blend stay in the order of the file.
             let chunks: &mut dyn Iterator<Item = &Chunk> = match batch.alpha_mode {
                 AlphaMode::Blend => &mut self.drawing.chunks.iter(),
                 AlphaMode::Opaque | AlphaMode::Mask { .. } => &mut near.iter().map(|(_, chunk)| *chunk),
@@ -133,7 +135,7 @@ fn sort_tiles(coarse: &mut CoarseMesh, scene: &Scene) {
 }
 
 impl Mesh {
-    /// Batches, and all triangles in the order of drawing.
+    /// Returns the batches, and all triangles in the order of drawing.
     fn drawing(
         &self,
         scene: &Scene,
@@ -156,7 +158,7 @@ impl Mesh {
     }
 }
 
-/// The attributes of the corners of a tile (shaders/surface/pass.wgsl), in a texture `texture` texels wide.
+/// Returns the attributes of a tile's corners (shaders/surface/pass.wgsl), for a texture `texture` texels wide.
 fn corners_of(tile: &Tile, texture: f32) -> [[Vec3; 2]; 3] {
     // The centre of the first texel.
     let first = (tile.origin.as_vec2() + 0.5) / texture;

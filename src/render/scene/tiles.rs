@@ -1,4 +1,4 @@
-//! The light of a coarse mesh on the device: a texture of tiles, and the buffers that it is filled from.
+//! The light of a coarse mesh on the device: a texture of tiles, and the buffers from which
 //! `render::stored_light::light_tiles` fills it.
 
 use std::sync::Mutex;
@@ -13,25 +13,25 @@ use crate::baked::coarse::CoarseMesh;
 use crate::gpu::Gpu;
 use crate::render::targets::HDR_FORMAT;
 
-/// The light of tiles, and the buffers that it is filled from.
+/// The light of tiles, and the buffers from which it is filled.
 pub struct Tiles {
     /// Radiance of white paint, scaled by pre-exposure.
     pub light: wgpu::TextureView,
     /// `Element` of shaders/stored_light/light_tiles.wgsl for each element in a tile.
     pub elements: wgpu::Buffer,
-    /// The element of each texel, a u32, row by row.
+    /// Index of the element of each texel, a u32, row by row.
     pub element_of: wgpu::Buffer,
-    /// Texels beyond the long sides of tiles, which bilinear reads touch, a u32 each.
+    /// Texels beyond the long sides of tiles, a u32 each. Bilinear reads touch them.
     pub beyond: wgpu::Buffer,
     /// Scratch for the radiance at the vertices of the scene, eight bytes each.
     pub radiances: wgpu::Buffer,
-    /// Texels across and down.
+    /// Width and height of the texture, texels.
     pub side: u32,
-    /// The light that the texture holds; `None` before it is filled.
+    /// The light in the texture; `None` before it is filled.
     pub held: Mutex<Option<HeldLight>>,
 }
 
-/// A state of the light of the vertices, and how it was weighted.
+/// A version of the light of the vertices, and the weights that it was summed with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeldLight {
     /// The light.
@@ -48,19 +48,19 @@ struct TileElement {
     corners: [u32; 3],
 }
 
-/// A texel as shaders/stored_light/light_tiles.wgsl reads it: x in the lower half, y in the upper half.
+/// Packs a texel as shaders/stored_light/light_tiles.wgsl reads it: x in the lower half, y in the upper half.
 fn packed(texel: UVec2) -> u32 {
     texel.x | texel.y << 16
 }
 
 impl Tiles {
-    /// A device with these limits can bind the buffers.
+    /// Returns true if a device with these limits can bind the buffers.
     pub(super) fn can_be_bound(coarse: &CoarseMesh, limits: &wgpu::Limits) -> bool {
         let sizes = [size_of_val(&coarse.element_of[..]), size_of::<TileElement>() * coarse.elements.len()];
         sizes.into_iter().all(|size| size as u64 <= limits.max_storage_buffer_binding_size)
     }
 
-    /// Uploads everything but the light.
+    /// Uploads everything except the light.
     pub(super) fn new(gpu: &Gpu, coarse: &CoarseMesh, order: &VertexOrder, num_vertices: usize) -> Self {
         let element = |vertices: [u32; 3], corners: [UVec2; 3]| TileElement {
             vertices: vertices.map(|v| order.place(v)),

@@ -1,4 +1,4 @@
-//! The light of a scene's vertices on the device, written again while a bake runs or when a moment is replayed.
+//! The light of a scene's vertices on the device. It is written again while a bake runs or when a moment is replayed.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -9,7 +9,8 @@ use super::vertex_order::VertexOrder;
 use crate::baked::VertexLight;
 use crate::gpu::Gpu;
 
-/// Irradiance on the device: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in their order there.
+/// Irradiance on the device: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in the order of the
+/// device.
 #[derive(Clone)]
 pub(super) struct LightBuffer {
     /// The buffer.
@@ -19,7 +20,7 @@ pub(super) struct LightBuffer {
     num_writes: Arc<AtomicU64>,
 }
 
-/// A state of the light of one scene; each write makes another.
+/// A version of the light of one scene. Each write makes another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightVersion {
     irradiance: wgpu::Buffer,
@@ -27,7 +28,7 @@ pub struct LightVersion {
 }
 
 impl LightBuffer {
-    /// Zeros for all groups; never empty, because an empty buffer cannot be bound.
+    /// Creates a buffer of zeros for all groups. It is never empty, because an empty buffer cannot be bound.
     pub fn new(gpu: &Gpu, num_groups: usize, num_vertices: usize) -> Self {
         let irradiance = gpu.device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("vertex irradiance"),
@@ -38,7 +39,7 @@ impl LightBuffer {
         Self { irradiance, num_groups, num_vertices, num_writes: Arc::default() }
     }
 
-    /// The state of the light.
+    /// Returns the version of the light.
     pub fn version(&self) -> LightVersion {
         let num_writes = self.num_writes.load(Ordering::Acquire);
         LightVersion { irradiance: self.irradiance.clone(), num_writes }

@@ -1,11 +1,11 @@
-//! The order of vertices on the device: that of their first use, so that neighbours lie side by side in memory.
+//! Order of vertices on the device: the order of their first use, so that neighbours lie side by side in memory.
 //!
-//! Triangles are drawn neighbour by neighbour (`draw_order`), but a file or a bake may store their vertices in any order. On a
-//! software driver a vertex that is in no cache takes longer to fetch than to transform.
+//! Triangles are drawn in an order that keeps neighbours together (`draw_order`), but a file or a bake may store their
+//! vertices in any order. On a software driver a vertex that is not in a cache takes longer to fetch than to transform.
 
 use std::sync::Arc;
 
-/// The order of vertices on the device.
+/// Order of vertices on the device.
 #[derive(Clone)]
 pub(super) struct VertexOrder {
     /// Index on the device of each vertex `[v]` of the scene.
@@ -13,7 +13,7 @@ pub(super) struct VertexOrder {
 }
 
 impl VertexOrder {
-    /// The order in which `indices` first name each of `num_vertices` vertices; the others follow.
+    /// Creates the order in which `indices` first use each of `num_vertices` vertices. Unused vertices follow.
     pub fn new(indices: &[u32], num_vertices: usize) -> Self {
         const UNUSED: u32 = u32::MAX;
         let mut places = vec![UNUSED; num_vertices];
@@ -28,17 +28,17 @@ impl VertexOrder {
         Self { places: places.into() }
     }
 
-    /// Index of a vertex on the device.
+    /// Returns the index of a vertex on the device.
     pub fn place(&self, vertex: u32) -> u32 {
         self.places[vertex as usize]
     }
 
-    /// Indices into the vertices on the device.
+    /// Converts indices to indices on the device.
     pub fn indices(&self, indices: &[u32]) -> Vec<u32> {
         indices.iter().map(|&vertex| self.place(vertex)).collect()
     }
 
-    /// Values of the vertices `[v]` of the scene, in the order of the device.
+    /// Returns values of the vertices `[v]` of the scene, sorted in the order of the device.
     pub fn sorted<T: Copy + Default>(&self, values: &[T]) -> Vec<T> {
         let mut sorted = vec![T::default(); values.len()];
         for (&place, &value) in self.places.iter().zip(values) {

@@ -1,8 +1,8 @@
-//! Fills the tiles of a coarse mesh with the light of the vertices, unless they hold it already.
+//! Fills the tiles of a coarse mesh with the light of the vertices, unless they hold that light already.
 //!
-//! A tile holds the radiance of white paint at the vertices of the elements that its triangle replaces, and the texels
-//! between are linear in each element. Tiles were designed for software rendering, where a fifth of the triangles draws
-//! faster; they also serve hardware, where the gain is not measured.
+//! A tile holds the radiance of white paint. At the vertices of the elements that its triangle replaces, the values are
+//! those of the vertices; the texels between are linear in each element. Tiles were designed for software rendering,
+//! where a fifth of the triangles draws faster. They also serve hardware, where the gain is not measured.
 
 use std::collections::HashMap;
 use std::sync::PoisonError;
@@ -23,10 +23,10 @@ pub(in crate::render) const LIGHT_TILES: Shader =
 
 /// Invocations of a compute group.
 const GROUP: u32 = 64;
-/// Most compute groups in a row that every device can dispatch.
+/// Largest number of compute groups in a row that every device can dispatch.
 const MAX_ROW: u32 = 65_535;
 
-/// One pipeline each for vertices, texels inside elements, and texels beyond the long sides of tiles.
+/// Pipelines for vertices, for texels inside elements, and for texels beyond the long sides of tiles.
 struct Pipelines {
     vertices: wgpu::ComputePipeline,
     inside: wgpu::ComputePipeline,
@@ -38,11 +38,11 @@ struct Pipelines {
 pub struct TileLight<'a> {
     /// The scene of the tiles.
     pub scene: &'a SceneBuffers,
-    /// The weights of the parts of its light.
+    /// Settings with the weights of its light.
     pub settings: &'a RenderSettings,
     /// The light of its vertices, summed over the light groups with these weights.
     pub weighted: &'a wgpu::Buffer,
-    /// Direct light comes from the lights themselves, so tiles hold none.
+    /// True if direct light comes from the lights themselves. Tiles then hold no direct light.
     pub lit_by_lights: bool,
 }
 
@@ -50,12 +50,12 @@ pub struct TileLight<'a> {
 pub struct TileFiller {
     layout: wgpu::BindGroupLayout,
     pipeline_layout: wgpu::PipelineLayout,
-    /// By whether direct light comes from the lights themselves; created for the first picture of each kind.
+    /// Pipelines by `lit_by_lights`; each is created for the first picture that needs it.
     pipelines: HashMap<bool, Pipelines>,
 }
 
 impl TileFiller {
-    /// Creates the layouts; pipelines follow with the first picture.
+    /// Creates the layouts. Pipelines are created with the first picture.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout) -> Self {
         let layout = bind_group_layout(gpu);
         let pipeline_layout = gpu.device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
@@ -66,7 +66,7 @@ impl TileFiller {
         Self { layout, pipeline_layout, pipelines: HashMap::new() }
     }
 
-    /// Fills `tiles` with the light of their scene, unless they hold it already.
+    /// Fills `tiles` with the light of their scene, unless they hold that light already.
     pub fn fill(
         &mut self,
         gpu: &Gpu,
@@ -111,7 +111,7 @@ impl TileFiller {
     }
 }
 
-/// All numbers that the filled light depends on.
+/// Returns all numbers that the light of the tiles depends on.
 fn weights(settings: &RenderSettings, lit_by_lights: bool) -> Vec<Vec3> {
     let direct = if lit_by_lights { 0.0 } else { settings.direct };
     let groups = (0..MAX_GROUPS).map(|group| settings.group_weight(GroupId::new(group)));

@@ -1,17 +1,17 @@
-//! Where the direct light of a picture comes from, and the shader and bindings for each source.
+//! Sources of direct light, and the shader and bindings of each.
 //!
-//! There are six shaders because constants, inputs and outputs of a shader are fixed when it is compiled: four sources of
-//! direct light, two of them with the stored light at the vertices or in tiles. The files are shared; a shader differs in its
-//! `varying` and its `direct` part only. Merging them would add unused inputs to every vertex, which a software driver
-//! writes and interpolates all the same. [`DirectSource::Few`] was designed for software rendering; it also serves hardware,
-//! where its gain is not measured.
+//! There are six shaders because constants, inputs and outputs of a shader are fixed when it is compiled. They cover
+//! four sources of direct light, two of them with the stored light at the vertices or in tiles. The files are shared; a
+//! shader differs in its `varying` and its `direct` part only. Merging them would add unused inputs to every vertex,
+//! and a software driver writes and interpolates unused inputs too. [`DirectSource::Few`] was designed for software
+//! rendering; it also serves hardware, where its gain is not measured.
 
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};
 use crate::render::shadow::few_lights;
 use crate::render::shadow::real_time::DirectLight;
 
-/// Light of the vertices.
+/// Shader for light of the vertices.
 pub(in crate::render) const SURFACE: Shader = shader!(
     "surface",
     "shared/frame.wgsl",
@@ -23,7 +23,7 @@ pub(in crate::render) const SURFACE: Shader = shader!(
     "surface/pass.wgsl",
     "surface/direct_stored.wgsl"
 );
-/// Light of the vertices, in tiles.
+/// Shader for light of the vertices, in tiles.
 pub(in crate::render) const SURFACE_TILES: Shader = shader!(
     "surface, tiles",
     "shared/frame.wgsl",
@@ -35,7 +35,7 @@ pub(in crate::render) const SURFACE_TILES: Shader = shader!(
     "surface/pass.wgsl",
     "surface/direct_stored.wgsl"
 );
-/// Direct irradiance from a texture with one sample a pixel.
+/// Shader for direct irradiance from a texture with one sample a pixel.
 pub(in crate::render) const SURFACE_LIT: Shader = shader!(
     "surface lit",
     "shared/frame.wgsl",
@@ -47,7 +47,7 @@ pub(in crate::render) const SURFACE_LIT: Shader = shader!(
     "surface/pass.wgsl",
     "surface/direct_one.wgsl"
 );
-/// Direct irradiance from a texture with several samples a pixel.
+/// Shader for direct irradiance from a texture with several samples a pixel.
 pub(in crate::render) const SURFACE_LIT_SAMPLES: Shader = shader!(
     "surface lit samples",
     "shared/frame.wgsl",
@@ -59,7 +59,7 @@ pub(in crate::render) const SURFACE_LIT_SAMPLES: Shader = shader!(
     "surface/pass.wgsl",
     "surface/direct_many.wgsl"
 );
-/// Direct light of a few light samples, which the pass adds itself.
+/// Shader for direct light of a few light samples, which the pass adds itself.
 pub(in crate::render) const SURFACE_FEW_LIGHTS: Shader = shader!(
     "surface few lights",
     "shared/frame.wgsl",
@@ -75,7 +75,7 @@ pub(in crate::render) const SURFACE_FEW_LIGHTS: Shader = shader!(
     "surface/pass.wgsl",
     "surface/direct_few.wgsl"
 );
-/// The same with the light of the vertices in tiles.
+/// Shader for direct light of a few light samples, with the light of the vertices in tiles.
 pub(in crate::render) const SURFACE_FEW_LIGHTS_TILES: Shader = shader!(
     "surface few lights, tiles",
     "shared/frame.wgsl",
@@ -92,7 +92,7 @@ pub(in crate::render) const SURFACE_FEW_LIGHTS_TILES: Shader = shader!(
     "surface/direct_few.wgsl"
 );
 
-/// Where direct light comes from.
+/// Source of direct light.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum DirectSource {
     /// The vertices, as baked.
@@ -106,7 +106,7 @@ pub enum DirectSource {
 }
 
 impl DirectSource {
-    /// The source for direct light from the lights themselves; `None` takes the vertices.
+    /// Returns the source for direct light from the lights themselves; `None` selects the vertices.
     pub fn of(live: Option<&DirectLight>) -> Self {
         match live {
             None => DirectSource::Stored,
@@ -116,8 +116,8 @@ impl DirectSource {
         }
     }
 
-    /// The coarse mesh can be drawn. With light from a texture it cannot: that light was found at the depths of the elements,
-    /// which must be equal to the last bit.
+    /// Returns true if the coarse mesh can be drawn. It cannot with light from a texture: that light was computed at
+    /// the depths of the elements, and the depths of the surfaces must be equal to them to the last bit.
     pub fn shows_tiles(self) -> bool {
         self.tiled_shader().is_some()
     }

@@ -1,4 +1,4 @@
-//! Surface pass: radiance of every visible point, in one draw a batch of one material.
+//! Surface pass: draws the radiance of every visible point, with one draw call for each batch of one material.
 
 use super::direct_source::DirectSource;
 use super::recently_used::RecentlyUsed;
@@ -13,20 +13,21 @@ use crate::render::shadow::few_lights::LightKinds;
 use crate::render::shadow::real_time::DirectLight;
 use crate::render::targets::HDR_FORMAT;
 
-/// Pipelines that are kept. One picture needs a few, and a software driver keeps a megabyte for each (Mesa 22.3).
+/// Largest number of cached pipelines. One picture needs a few, and a software driver keeps a megabyte for each (Mesa
+/// 22.3).
 const MOST_PIPELINES: usize = 16;
 
-/// What a pipeline depends on: the surface, and the kinds of a few light samples.
+/// Everything that a pipeline depends on: the surface, and the kinds of a few light samples.
 type PipelineKey = (Variant, Option<LightKinds>);
 
-/// What the surface pass draws.
+/// Input of the surface pass.
 #[derive(Clone, Copy)]
 pub struct SurfaceInput<'a> {
     /// Bind group 0.
     pub bindings: &'a wgpu::BindGroup,
     /// The triangles that may be in view.
     pub in_view: &'a SceneBuffers,
-    /// What is shown of surfaces.
+    /// Settings of the picture.
     pub settings: &'a RenderSettings,
     /// The light of the vertices, summed over the light groups.
     pub stored: &'a wgpu::Buffer,
@@ -44,19 +45,19 @@ pub struct SurfacePass {
     /// The module for light in tiles, if this source of direct light can show tiles.
     tiled_module: Option<wgpu::ShaderModule>,
     samples: u32,
-    /// The pipelines that were used last.
+    /// The pipelines that were used most recently.
     pipelines: RecentlyUsed<PipelineKey, wgpu::RenderPipeline>,
     /// Layout of bind group 1.
     light_layout: wgpu::BindGroupLayout,
     /// Interpolates between texels of tiles.
     sampler: wgpu::Sampler,
-    /// Bound if there are no tiles.
+    /// Placeholder that is bound if there are no tiles.
     no_tiles: wgpu::TextureView,
     /// Layout of bind group 3, if there is one.
     direct_layout: Option<wgpu::BindGroupLayout>,
 }
 
-/// Layout of bind group 1: metered exposure (one f32), tiles of a coarse mesh, and their sampler.
+/// Creates the layout of bind group 1: metered exposure (one f32), tiles of a coarse mesh, and their sampler.
 fn light_layout(gpu: &Gpu) -> wgpu::BindGroupLayout {
     let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry { binding, visibility, ty, count: None };
     let exposure = wgpu::BindingType::Buffer {
@@ -95,7 +96,7 @@ fn no_tiles(gpu: &Gpu) -> wgpu::TextureView {
 }
 
 impl SurfacePass {
-    /// A pass for targets with `samples` samples a pixel, and for direct light from `source`.
+    /// Creates a pass for targets with `samples` samples a pixel, and for direct light from `source`.
     pub fn new(gpu: &Gpu, frame_layout: &wgpu::BindGroupLayout, samples: u32, source: DirectSource) -> Self {
         let direct_layout = source.layout(gpu);
         let module = source.shader().module(gpu);
@@ -192,7 +193,7 @@ impl SurfacePass {
         })
     }
 
-    /// The pipeline of a variant, created if it is not kept.
+    /// Returns the pipeline of a variant. Creates it unless it is cached.
     fn pipeline(&mut self, gpu: &Gpu, key: PipelineKey) -> wgpu::RenderPipeline {
         if let Some(kept) = self.pipelines.get(&key) {
             return kept.clone();

@@ -1,19 +1,19 @@
-//! A small cache that drops what was used least recently.
+//! A small cache that drops the least recently used value.
 
 /// Values by key, in the order of their last use.
 pub struct RecentlyUsed<K, V> {
-    /// The least recently used first.
+    /// Keys and values, the least recently used first.
     entries: Vec<(K, V)>,
     capacity: usize,
 }
 
 impl<K: PartialEq, V> RecentlyUsed<K, V> {
-    /// An empty cache of at most `capacity` values.
+    /// Creates an empty cache for at most `capacity` values.
     pub fn new(capacity: usize) -> Self {
         Self { entries: Vec::new(), capacity }
     }
 
-    /// The value of a key, which becomes the most recently used one.
+    /// Returns the value of a key, which becomes the most recently used one.
     pub fn get(&mut self, key: &K) -> Option<&V> {
         let at = self.entries.iter().position(|(known, _)| known == key)?;
         let entry = self.entries.remove(at);
@@ -21,7 +21,7 @@ impl<K: PartialEq, V> RecentlyUsed<K, V> {
         self.entries.last().map(|(_, value)| value)
     }
 
-    /// Adds the value of a key that has none, and drops the least recently used one if the cache is full.
+    /// Adds a value for a key that has none. If the cache is full, the least recently used value is dropped.
     pub fn insert(&mut self, key: K, value: V) {
         if self.entries.len() >= self.capacity {
             self.entries.remove(0);

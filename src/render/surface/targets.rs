@@ -1,4 +1,4 @@
-//! Targets of the surface pass: radiance for the passes that follow, or display colours at once.
+//! Targets of the surface pass: radiance for the passes that follow, or display colours directly.
 
 use super::variant::Output;
 use crate::base::colour::srgb_from_linear;
@@ -8,22 +8,22 @@ use crate::render::targets::Targets;
 
 /// Textures that the surface pass draws into, all of one size.
 pub struct SurfaceTargets<'a> {
-    /// Radiance or display colours, by `output`.
+    /// Target of radiance or display colours, according to `output`.
     colour: &'a wgpu::TextureView,
-    /// Receives the mean of the samples of each pixel.
+    /// Target that receives the mean of the samples of each pixel.
     resolve: Option<&'a wgpu::TextureView>,
-    /// Depth.
+    /// Target of depth.
     depth: &'a wgpu::TextureView,
-    /// Luminance for the light meter, by `output`.
+    /// Target of luminance for the light meter, if `output` includes it.
     luminance: Option<&'a wgpu::TextureView>,
-    /// What the pass writes.
+    /// Output of the pass.
     pub output: Output,
     /// Colour of pixels without a surface.
     background: wgpu::Color,
 }
 
 impl<'a> SurfaceTargets<'a> {
-    /// Radiance; pixels without a surface have no light and no coverage.
+    /// Returns targets of radiance. Pixels without a surface have no light and no coverage.
     pub fn radiance(targets: &'a Targets) -> Self {
         let (colour, resolve) = match &targets.samples {
             Some(samples) => (samples, Some(&targets.hdr_view)),
@@ -33,7 +33,7 @@ impl<'a> SurfaceTargets<'a> {
         Self { colour, resolve, depth: &targets.depth, luminance: None, output: Output::Radiance, background }
     }
 
-    /// Display colours into a target of `format`; pixels without a surface have the background of `settings`.
+    /// Returns targets of display colours, of `format`. Pixels without a surface have the background of `settings`.
     pub fn display(
         target: &'a wgpu::TextureView,
         format: wgpu::TextureFormat,
@@ -52,7 +52,8 @@ impl<'a> SurfaceTargets<'a> {
         }
     }
 
-    /// As [`Self::display`], with the luminance that the exposure of the next picture is metered from.
+    /// Returns targets as [`Self::display`], and one for the luminance from which the exposure of the next picture is
+    /// metered.
     pub fn display_and_luminance(
         gpu: &Gpu,
         target: &'a wgpu::TextureView,
@@ -64,7 +65,7 @@ impl<'a> SurfaceTargets<'a> {
         Self { luminance: Some(targets.luminance(gpu)), output, ..Self::display(target, format, targets, settings) }
     }
 
-    /// Begins a pass that clears the targets; the depth is that of infinity.
+    /// Begins a pass that clears the targets. Depth is cleared to that of infinity.
     pub fn begin<'e>(&self, encoder: &'e mut wgpu::CommandEncoder) -> wgpu::RenderPass<'e> {
         let cleared = |view, resolve_target, colour| {
             let ops = wgpu::Operations { load: wgpu::LoadOp::Clear(colour), store: wgpu::StoreOp::Store };
