@@ -1,14 +1,14 @@
-// Item buffer of a hemicube face: the element that each pixel shows (Weghorst, Hooper, Greenberg 1984).
+// Item buffer of a hemicube face: stores for each pixel the visible element (Weghorst, Hooper, Greenberg 1984).
 //
-// The input triangles are drawn, not the elements: each fragment finds its element by descending the triangle's bisection
-// tree with its barycentric position, so the cost depends on input triangles and pixels alone.
+// The input triangles are drawn, not the elements. Each fragment finds its element by descending the triangle's
+// bisection tree with its barycentric position. So the cost depends on the number of input triangles and pixels alone.
 //
-// Item: 0 nothing, else element id + 1; the highest bit marks the black back of a single-sided surface.
+// An item is 0 for nothing, else the element id + 1. The highest bit marks the black back of a single-sided surface.
 
 struct Vertex {
     @builtin(vertex_index) index: u32,
     @location(0) position: vec3<f32>,
-    // Root of the triangle's tree, and the item offset of its back; 0 if the back is black.
+    // Root of the triangle's tree, and the item offset of its back (0 if the back is black).
     @location(1) ids: vec2<u32>,
 }
 
@@ -26,21 +26,22 @@ struct Triangle {
 struct Cutout {
     first_texel: u32,
     size: vec2<u32>,
-    // 0 repeat, 1 mirror, 2 clamp; u in the low half, v in the high half.
+    // Wrap mode of u in the low half, of v in the high half: 0 repeat, 1 mirror, 2 clamp.
     wrap: u32,
     alpha_factor: f32,
-    // Smallest solid alpha; negative if the share 1 - alpha of the light passes.
+    // Smallest solid alpha. If it is negative, the surface lets the share 1 - alpha of the light pass.
     cutoff: f32,
 }
 
-// One face of one hemicube, at a dynamic offset. A uniform, because software drivers read storage anew for every vertex.
+// View of one face of one hemicube, at a dynamic offset. It is a uniform, because software drivers read storage anew
+// for every vertex.
 @group(0) @binding(0) var<uniform> view: mat4x4<f32>;
 @group(0) @binding(1) var<storage, read> triangles: array<Triangle>;
 @group(0) @binding(2) var<storage, read> tree: array<u32>;
 @group(0) @binding(3) var<storage, read> cutouts: array<Cutout>;
 @group(0) @binding(4) var<storage, read> alphas: array<u32>;
 
-// The scene has surfaces that let light through.
+// True if the scene has surfaces that let light through.
 override HAS_CUTOUTS: bool = false;
 
 const FIRST_ELEMENT: u32 = 1u;
@@ -48,9 +49,10 @@ const BLACK_BACK: u32 = 0x80000000u;
 
 struct Varyings {
     @builtin(position) position: vec4<f32>,
-    // Weights of the first two corners. Few locations, because software drivers set up each one for every triangle.
+    // Barycentric weights of the first two corners. There are few locations, because software drivers set up each one
+    // for every triangle.
     @location(0) weights: vec2<f32>,
-    // Triangle, root of its tree, item offset of its back.
+    // Triangle, root of its tree, and item offset of its back.
     @location(1) @interpolate(flat) ids: vec3<u32>,
 }
 
@@ -75,9 +77,9 @@ fn fragment(in: Varyings, @builtin(front_facing) is_front: bool) -> @location(0)
     return side + FIRST_ELEMENT + element_at(in.ids.y, barycentric);
 }
 
-// The element that contains a barycentric position; `Node` in src/patch describes the words of the tree.
+// Returns the element that contains a barycentric position. `Node` in src/patch describes the words of the tree.
 //
-// Software drivers also shade pixels outside the triangle, whose reads return zero: a zero node ends the descent.
+// Software drivers also shade pixels outside the triangle, and their reads return zero. A zero node ends the descent.
 fn element_at(root: u32, barycentric: vec3<f32>) -> u32 {
     var w = barycentric;
     var node = root;
@@ -95,7 +97,7 @@ fn element_at(root: u32, barycentric: vec3<f32>) -> u32 {
     return (node >> 6u) + path;
 }
 
-// Barycentric weights in the half of the triangle that contains the point.
+// Returns the barycentric weights in that half of the triangle that contains the point.
 fn halved(w: vec3<f32>) -> vec3<f32> {
     let at_midpoint = 2.0 * min(w.y, w.z);
     let rest = abs(w.y - w.z);

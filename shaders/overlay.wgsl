@@ -1,8 +1,8 @@
-// Overlay: lines and tinted faces over a finished picture, hidden by the surfaces before them.
+// Overlay: draws lines and tinted faces over a finished picture. Surfaces in front of them hide them.
 
-// The target's format encodes sRGB itself.
+// True if the format of the target encodes sRGB itself.
 override TARGET_ENCODES: bool = false;
-// Shift of marks towards the eye, as a share of the distance; metres in an orthographic view.
+// Shift of marks towards the eye, as a share of the distance; in an orthographic view in metres.
 const LIFT: f32 = 1e-3;
 
 struct Varying {
@@ -11,13 +11,13 @@ struct Varying {
     @location(0) colour: vec4f,
 }
 
-// Depth of the scene.
+// Draws the depth of the scene.
 @vertex
 fn solid(@location(0) position: vec3f) -> @builtin(position) vec4f {
     return frame.projection_from_world * vec4f(position, 1.0);
 }
 
-// Colours of the scene are drawn already, so none is written.
+// Writes no colour, because the picture already shows the scene.
 @fragment
 fn unseen() -> @location(0) vec4f {
     return vec4f(0.0);

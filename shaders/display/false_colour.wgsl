@@ -1,8 +1,8 @@
-// Illuminance as a colour, with lines of equal illuminance.
+// Maps an illuminance to a colour, with lines of equal illuminance.
 
 const LINE_WIDTH_PX: f32 = 1.3;
 
-// Position of an illuminance on the scale, 0..1 between its ends.
+// Returns the position of an illuminance on the scale: 0..1 between its ends.
 fn place_on_scale(lux: f32) -> f32 {
     let low = frame.lux_scale.x;
     let high = frame.lux_scale.y;
@@ -10,11 +10,11 @@ fn place_on_scale(lux: f32) -> f32 {
     return select((lux - low) / (high - low), logarithmic, frame.lux_scale.z > 0.0);
 }
 
-// Linear display colour of an illuminance.
+// Returns the linear display colour of an illuminance.
 fn false_colour(lux: f32) -> vec3f {
     let place = place_on_scale(lux);
     let colour = linear_from_srgb(turbo(saturate(place)));
-    // Lines divide the scale into equal parts, its ends included.
+    // A line is at the upper end of each of the equal parts of the scale, none at its low end.
     let part = place * frame.lux_scale.w;
     let to_line = abs(fract(part - 0.5) - 0.5) / max(fwidth(part), 1e-6);
     let has_lines = frame.lux_scale.w > 0.0 && part > 0.5 && part < frame.lux_scale.w + 0.5;
@@ -22,7 +22,8 @@ fn false_colour(lux: f32) -> vec3f {
     return mix(colour, vec3f(0.0), line);
 }
 
-// Turbo as a polynomial, sRGB (Mikhailov 2019, "Turbo, An Improved Rainbow Colormap for Visualization").
+// Returns the Turbo colour map as a polynomial, sRGB (Mikhailov 2019, "Turbo, An Improved Rainbow Colormap for
+// Visualization").
 fn turbo(x: f32) -> vec3f {
     let powers = vec4f(1.0, x, x * x, x * x * x);
     let high_powers = powers.zw * powers.z;

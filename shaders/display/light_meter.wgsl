@@ -1,21 +1,22 @@
-// Light meter: the exposure of a picture from a histogram of its log2 luminance.
+// Light meter: computes the exposure of a picture from a histogram of its log2 luminance.
 //
 // The log-average is placed at middle grey (Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 1),
 // unless the brightest twentieth of the pixels would then exceed HIGHLIGHT times white.
 
 const NUM_BINS: u32 = 256u;
-// Distance of counted pixels: every other pixel of every other row is enough, every fourth in a movement.
+// Distance between counted pixels in rows and columns: 2 for a picture on its own, 4 in a movement.
 override STEP: u32 = 2u;
-// The bins cover luminances from 2^-20 to 2^20. Bin 0 also holds darker pixels and does not count.
+// The bins cover luminances from 2^-20 to 2^20. Bin 0 also holds darker pixels and is ignored.
 const DARKEST: f32 = -20.0;
 const BINS_PER_STOP: f32 = 6.4;
-// Display luminance of the log-average.
+// Display luminance that the log-average is mapped to.
 const MIDDLE_GREY: f32 = 0.2;
-// Share of pixels, from the dark end, that may not exceed HIGHLIGHT x white.
+// Share of pixels, from the dark end, that must not exceed HIGHLIGHT x white.
 const HIGHLIGHT_SHARE: f32 = 0.95;
 const HIGHLIGHT: f32 = 1.5;
 
-// The picture holds luminance, 0 for pixels without a surface; else radiance and coverage.
+// True if the picture holds luminance, which is 0 for pixels without a surface. False if it holds radiance and
+// coverage.
 override IS_LUMINANCE: bool = false;
 
 @group(1) @binding(0) var hdr: texture_2d<f32>;

@@ -1,11 +1,12 @@
-// Tone mapping pass: radiance to display colours, sample by sample, so that the edges of bright lamps stay smooth.
+// Tone mapping pass: maps radiance to display colours. Each sample is mapped separately, so the edges of bright lamps
+// stay smooth.
 
 @group(1) @binding(1) var<storage, read> metered_exposure: f32;
 
-// Constants are passed to the pixels by the vertices, for the reasons in shared/frame.wgsl.
+// Values that are constant over the picture pass from vertices to pixels, for the reasons in shared/frame.wgsl.
 struct Varying {
     @builtin(position) position: vec4f,
-    // Displayed = hdr x exposure.
+    // Factor from the HDR picture to exposed light.
     @location(0) @interpolate(flat) exposure: f32,
     @location(1) @interpolate(flat) background: vec3f,
     @location(2) @interpolate(flat) tone_map: u32,
@@ -25,7 +26,7 @@ fn fragment(in: Varying) -> @location(0) vec4f {
     return displayed(pixel_colour(in), in.position.xy);
 }
 
-// Mean display colour of the samples. Inside a surface all samples are equal, and one is enough.
+// Returns the mean display colour of the samples. Inside a surface all samples are equal, and one is enough.
 fn pixel_colour(in: Varying) -> vec3f {
     let pixel = vec2i(in.position.xy);
     let first = hdr_sample(pixel, 0u);

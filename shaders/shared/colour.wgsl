@@ -4,8 +4,8 @@ fn luminance(colour: vec3f) -> f32 {
     return dot(colour, vec3f(0.2126, 0.7152, 0.0722));
 }
 
-// The power of 1 / 2.4 as a polynomial of the fourth root, with an error below 7e-6: a software driver takes long for a
-// power, and every pixel needs one.
+// Encodes a linear colour. The power of 1 / 2.4 is a polynomial of the fourth root with an error below 7e-6, because a
+// software driver takes long for a power and every pixel needs one.
 fn srgb_from_linear(linear: vec3f) -> vec3f {
     let low = linear * 12.92;
     let t = sqrt(sqrt(max(linear, vec3f(0.0))));

@@ -2,17 +2,18 @@
 //
 // Three rules for lavapipe (Mesa 22.3), which cost hardware nothing:
 // 1. No branch depends on a uniform buffer. lavapipe compiles a shader again for each value of a uniform that branches
-//    depend on, and keeps every version. Choices lie in a storage buffer or are constants of the pipeline.
-// 2. No derivative is taken of a value that depends on storage. Derivatives also read pixels outside the triangle, for which
-//    lavapipe loads zero.
-// 3. Vertices pass to their pixels what pixels need of a uniform buffer, if possible. A fragment shader loads each number
+//    depend on, and keeps every version. Values that select branches are in a storage buffer or are constants
+//    of the pipeline.
+// 2. No derivative is taken of a value that depends on storage. Derivatives also read pixels outside the triangle, for
+//    which lavapipe loads zero.
+// 3. Where possible, vertices pass values of a uniform buffer on to their pixels. A fragment shader loads each number
 //    for each pixel again, which takes as long as ten additions.
 
 const MAX_GROUPS: u32 = 8u;
 
 struct Frame {
     projection_from_world: mat4x4f,
-    // Factor on the light of each group, rgb; the fourth channel is unused.
+    // Factor on the light of each group, rgb. The fourth channel is unused.
     group_weights: array<vec4f, MAX_GROUPS>,
     // Radiance of white paint that is added everywhere.
     ambient: vec3f,
@@ -22,12 +23,12 @@ struct Frame {
     background: vec3f,
     // Factor on indirect irradiance.
     indirect: f32,
-    // Power of two that keeps the scene's radiance within half floats; every HDR texture is scaled by it.
+    // Power of two that brings the scene's radiance into the range of half floats. Every HDR texture is scaled by it.
     pre_exposure: f32,
     // Displayed = radiance x exposure; 0 selects the metered exposure.
     exposure: f32,
     num_vertices: u32,
-    // Factor from irradiance of the lights themselves to the radiance of white paint.
+    // Factor from the summed irradiance of the lights themselves to the radiance of white paint.
     live: f32,
     // Homogeneous: the eye with w = 1, or the direction towards it with w = 0.
     eye: vec4f,

@@ -1,21 +1,21 @@
-// Bind group 2: numbers and textures of a material, and their values at a point. Written by
+// Bind group 2: numbers and textures of a material, and functions that evaluate them at a point. Written by
 // src/render/scene/materials.rs. No branch depends on the numbers, and vertices pass them to their pixels, for the
 // reasons in shared/frame.wgsl.
 
 const NO_GROUP: u32 = 0xffffffffu;
 
-// Alpha modes; a pipeline each.
+// Alpha modes. Each has a pipeline of its own.
 const ALPHA_OPAQUE: u32 = 0u;
 const ALPHA_MASK: u32 = 1u;
 const ALPHA_BLEND: u32 = 2u;
 override ALPHA_MODE: u32 = ALPHA_OPAQUE;
-// At least one texture is not white.
+// True if at least one texture is not white.
 override HAS_TEXTURES: bool = true;
-// Edges of masks are smooth by coverage, which needs several samples a pixel.
+// True if the coverage of a mask is written as alpha, which smooths its edges. It needs several samples a pixel.
 override ALPHA_TO_COVERAGE: bool = false;
 
-// Coordinates of a texture: rows of the affine map from mesh coordinates, and the coordinate set. Without a texture a white
-// one is bound.
+// Coordinates of a texture: the rows of the affine map from mesh coordinates, and the coordinate set. If a material has
+// no texture, a white one is bound.
 struct Slot {
     u: vec3f,
     uv_set: u32,
@@ -31,7 +31,7 @@ struct Material {
     metallic_slot: Slot,
     emissive_slot: Slot,
     alpha_cutoff: f32,
-    // Light group that dims the emission, or NO_GROUP.
+    // Index of the light group that dims the emission, or NO_GROUP.
     group: u32,
     padding: vec2u,
 }
@@ -52,7 +52,7 @@ fn coordinate(slot: Slot, uv: vec4f) -> vec2f {
     return vec2f(dot(slot.u, at), dot(slot.v, at));
 }
 
-// Colour and alpha of a point: the interpolated `factor` of its vertices times the texture at `place`.
+// Returns colour and alpha of a point: the interpolated `factor` of its vertices times the texture at `place`.
 fn base_colour(factor: vec4f, place: vec2f) -> vec4f {
     if !HAS_TEXTURES {
         return factor;
@@ -60,7 +60,7 @@ fn base_colour(factor: vec4f, place: vec2f) -> vec4f {
     return factor * textureSample(base_texture, base_sampler, place);
 }
 
-// Share of the pixel that the surface covers; discards the holes of masks.
+// Returns the share of the pixel that the surface covers. Discards the holes of masks.
 fn coverage(alpha: f32) -> f32 {
     if ALPHA_MODE == ALPHA_OPAQUE {
         return 1.0;
@@ -69,7 +69,7 @@ fn coverage(alpha: f32) -> f32 {
         return saturate(alpha);
     }
     let above = alpha - material.alpha_cutoff;
-    // Ramp one pixel wide round the cut-off (Golus 2017, "Anti-aliased Alpha Test").
+    // A ramp one pixel wide round the cut-off (Golus 2017, "Anti-aliased Alpha Test").
     let ramp = saturate(above / max(fwidth(alpha), 1e-4) + 0.5);
     if select(above < 0.0, ramp <= 0.0, ALPHA_TO_COVERAGE) {
         discard;
@@ -84,7 +84,7 @@ fn metallic(factor: f32, place: vec2f) -> f32 {
     return factor * textureSample(metallic_texture, metallic_sampler, place).b;
 }
 
-// Emission before its texture, dimmed with its light group.
+// Returns the emission before its texture, dimmed with its light group.
 fn emission_factor() -> vec3f {
     return material.emission * select(group_weight(material.group), vec3f(1.0), material.group == NO_GROUP);
 }

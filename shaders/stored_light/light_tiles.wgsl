@@ -1,27 +1,28 @@
-// The light of tiles: the radiance of white paint at each texel, linear in each element (src/baked/coarse/tiles.rs).
+// Fills tiles with light: the radiance of white paint at each texel, linear in each element
+// (src/baked/coarse/tiles.rs).
 
 const NOTHING: u32 = 0xffffffffu;
 const PI: f32 = 3.14159265358979;
 // Largest value that a half float holds, with room for rounding.
 const LARGEST_HALF: f32 = 65000.0;
-// Direct light comes from the lights themselves, so tiles hold none.
+// True if direct light comes from the lights themselves. Tiles then hold no direct light.
 override LIT_BY_LIGHTS: bool = false;
 
 struct Element {
     vertices: array<u32, 3>,
-    // Texel across, and 65,536 x texel down.
+    // Texels of the corners: column + 65,536 x row.
     corners: array<u32, 3>,
 }
 
-// [vertex], direct then indirect irradiance, three floats each.
+// Irradiance of the vertices: [vertex], direct then indirect, three floats each.
 @group(1) @binding(0) var<storage, read> weighted: array<f32>;
 @group(1) @binding(1) var<storage, read> elements: array<Element>;
-// [texel], row by row.
+// Element of each texel: [texel], row by row.
 @group(1) @binding(2) var<storage, read> element_of: array<u32>;
 // Texels beyond the long sides, packed like corners.
 @group(1) @binding(3) var<storage, read> beyond: array<u32>;
 @group(1) @binding(4) var light: texture_storage_2d<rgba16float, write>;
-// [vertex], radiance of white paint scaled by pre-exposure, four halves.
+// Radiance of white paint at the vertices, scaled by pre-exposure: [vertex], four halves.
 @group(1) @binding(5) var<storage, read_write> radiances: array<vec2u>;
 
 @compute @workgroup_size(64)
@@ -47,7 +48,8 @@ fn fill(@builtin(global_invocation_id) invocation: vec3u) {
     }
 }
 
-// Extrapolates the texels beyond a long side from the three before them, so that bilinear reads on the side are exact.
+// Extrapolates the texels beyond a long side from the three texels before them. So bilinear reads on the side are
+// exact.
 @compute @workgroup_size(64)
 fn fill_beyond(@builtin(global_invocation_id) invocation: vec3u) {
     if invocation.x >= arrayLength(&beyond) {
@@ -67,7 +69,7 @@ fn storable(radiance: vec3f) -> vec3f {
     return clamp(radiance, vec3f(-LARGEST_HALF), vec3f(LARGEST_HALF));
 }
 
-// Radiance at a texel that has an element.
+// Returns the radiance at a texel that has an element.
 fn radiance_of(texel: vec2u) -> vec3f {
     let element = elements[element_of[texel.y * textureDimensions(light).x + texel.x]];
     let a = vec2f(unpacked(element.corners[0]));

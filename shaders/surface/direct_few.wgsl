@@ -2,20 +2,20 @@
 // bindings are written by src/render/shadow/few_lights.rs.
 
 const MAX_LIGHTS: u32 = 4u;
-// What the lights are like, as constants: software drivers execute both sides of a branch.
+// Properties of the lights. They are constants, because software drivers execute both sides of a branch.
 override NUM_LIGHTS: u32 = 1u;
 override HAS_MAPS: bool = true;
 override KIND_0: u32 = 0u;
 override KIND_1: u32 = 0u;
 override KIND_2: u32 = 0u;
 override KIND_3: u32 = 0u;
-// There is one sample a pixel, at its centre.
+// True if a pixel has one sample, at its centre.
 override ONE_SAMPLE: bool = false;
 
 @group(3) @binding(0) var<uniform> lights: array<LightSample, MAX_LIGHTS>;
 @group(3) @binding(1) var<uniform> shadow_maps: array<ShadowMap, MAX_LIGHTS>;
 @group(3) @binding(2) var map_sampler: sampler;
-// If there are fewer lights, these are textures of one texel.
+// The maps of the lights. Those of missing lights are textures of one texel.
 @group(3) @binding(3) var map_0: texture_depth_2d_array;
 @group(3) @binding(4) var map_1: texture_depth_2d_array;
 @group(3) @binding(5) var map_2: texture_depth_2d_array;
@@ -62,7 +62,7 @@ fn fragment(in: Varying, @builtin(front_facing) is_front: bool) -> Shown {
     return surface_colour(in, is_front, direct);
 }
 
-// Returns the visible point in light space: that at the centre of the pixel, or the centroid if the centre can lie
+// Returns the visible point in light space: at the centre of the pixel, or at the centroid if the centre can lie
 // outside the triangle.
 fn receiver(index: u32, kind: u32, in: Varying, is_front: bool, middle: vec3f, normal: vec3f) -> Receiver {
     if ONE_SAMPLE {

@@ -1,4 +1,4 @@
-//! Display colours written by the surface pass, compared with those of radiance and tone map pass.
+//! Display colours written by the surface pass, compared with those of the radiance and tone mapping passes.
 
 use std::sync::Arc;
 
@@ -18,7 +18,8 @@ use crate::support::screen::displayed;
 
 const SIZE: [u32; 2] = [160, 90];
 
-/// Number of pixels that differ by more than a step of eight bits, and number of pixels that are neither black nor white.
+/// Returns the number of pixels that differ by more than a step of eight bits, and the number of pixels that are
+/// neither black nor white.
 fn compare(gpu: &Gpu, scene: &Scene, settings: &RenderSettings) -> [usize; 2] {
     let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
     let buffers = SceneBuffers::new(gpu, &BakedScene::new(scene.clone(), light));
@@ -87,7 +88,7 @@ fn pictures_of_a_movement_converge_to_their_own_exposure() {
     let mut renderer = Renderer::new(gpu, TextureFormat::Rgba8Unorm, 1);
     let exact = displayed(gpu, &mut renderer, &bright);
     let ev = renderer.metered_ev(gpu).expect("a device").expect("metered");
-    // From the light of another picture to that of this one.
+    // Starts with the exposure of another picture and draws this one.
     let _ = displayed(gpu, &mut renderer, &dim);
     let bright = PictureRequest { exposure: MeteredExposure::OfLast, ..bright };
     let first = displayed(gpu, &mut renderer, &bright);
@@ -95,7 +96,7 @@ fn pictures_of_a_movement_converge_to_their_own_exposure() {
     let mean = |picture: &[u8]| picture.iter().map(|&value| f64::from(value)).sum::<f64>() / picture.len() as f64;
     assert!(mean(&first) > mean(&exact) + 20.0, "{} after {}", mean(&first), mean(&exact));
     assert!((mean(&second) - mean(&exact)).abs() < 2.0, "{} for {}", mean(&second), mean(&exact));
-    // Every fourth pixel tells nearly what every other does.
+    // Metering every fourth pixel gives nearly the same exposure as metering every other one.
     let new_ev = renderer.metered_ev(gpu).expect("a device").expect("metered");
     assert!((new_ev - ev).abs() < 0.05, "{new_ev} for {ev}");
 }

@@ -1,4 +1,4 @@
-//! From radiance to display colours: exposure, metering, dither, background.
+//! Conversion of radiance to display colours: exposure, metering, dither, background.
 
 use std::f32::consts::PI;
 
@@ -33,7 +33,7 @@ fn metering_does_not_depend_on_the_strength_of_the_light() {
     let shown = |light| draw(&Quads::square(paint(Vec3::ONE), Vec3::splat(light)), &settings);
     let Some(dim) = shown(0.01) else { return };
     let bright = shown(30_000.0).expect("a GPU");
-    // Middle grey is 0.2 of white, within half a histogram bin: sRGB 124.
+    // Middle grey is 0.2 of white within half a histogram bin: sRGB 124.
     for picture in [&dim, &bright] {
         let level = display_at(picture, 30, 30)[0];
         assert!(level.abs_diff(124) <= 4, "{level}");
@@ -129,7 +129,7 @@ fn two_pictures_in_one_submission_keep_their_own_settings() {
     assert!(second[0].abs_diff(137) <= 1, "a quarter of the first: {}", second[0]);
 }
 
-/// Bytes of two pictures drawn in one submission, the second two stops darker.
+/// Returns the bytes of two pictures that are drawn in one submission, the second two stops darker.
 fn draw_two_into(gpu: &Gpu, format: TextureFormat, quads: &Quads) -> Vec<u8> {
     let scene = SceneBuffers::new(gpu, &quads.baked);
     let mut renderer = Renderer::new(gpu, format, 1);

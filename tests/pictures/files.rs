@@ -35,7 +35,7 @@ fn an_error_names_the_file_that_cannot_be_written_or_read() {
     }
 }
 
-/// A box open towards the camera with a red and a green wall, a lamp and light that falls off from the lamp.
+/// A box that is open towards the camera, with a red and a green wall, and a lamp whose light decreases with distance.
 fn room() -> Quads {
     let mut quads = Quads::with_groups(1);
     let white = quads.material(paint(Vec3::splat(0.75)));
@@ -65,7 +65,7 @@ fn a_room_equals_its_snapshot() {
 
 #[test]
 fn tone_mapping_on_the_cpu_equals_that_on_the_gpu() {
-    // From dark to far beyond white, in colour, and a corner where nothing is.
+    // Colours from dark to far beyond white, and a corner without a surface.
     let mut quads = Quads::with_groups(1);
     let material = quads.material(paint(Vec3::new(0.9, 0.6, 0.3)));
     quads.quad(Vec3::new(-1.0, -1.0, 0.0), 1.9 * Vec3::X, 1.7 * Vec3::Y, material);

@@ -9,7 +9,7 @@ use crate::support::quads::{Quads, paint, square_camera};
 
 #[test]
 fn a_picture_of_a_lost_device_is_an_error_that_says_why() {
-    // A device of its own: the other tests go on with theirs.
+    // A device of its own, because the other tests use theirs at the same time.
     let Ok(gpu) = Gpu::headless() else { return };
     let quads = Quads::square(paint(Vec3::ONE), Vec3::ONE);
     let draw = || picture(&gpu, &quads.baked, &square_camera(), [SIZE; 2], &plain());

@@ -43,7 +43,7 @@ fn very_bright_lamps_keep_their_radiance() {
     assert_close(radiance, Vec3::splat(1.6e9));
 }
 
-/// Two groups with direct and indirect light, all different.
+/// Two groups with direct and indirect light. All four lights differ.
 fn four_lights() -> Quads {
     let mut quads = Quads::with_groups(2);
     let white = quads.material(paint(Vec3::ONE));

@@ -14,13 +14,13 @@ use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, square_camera};
 use crate::support::screen::displayed;
 
-/// Display value of the red channel in the middle of a picture.
+/// Returns the display value of the red channel in the middle of a picture.
 fn red(gpu: &Gpu, renderer: &mut Renderer, scene: &SceneBuffers, settings: &RenderSettings) -> u8 {
     displayed(gpu, renderer, &PictureRequest::new(scene, &square_camera(), [SIZE; 2], settings))
         [(4 * (SIZE * SIZE / 2 + SIZE / 2)) as usize]
 }
 
-/// White paint with radiance 0.5 from the group `group` alone, half of it direct.
+/// White paint with radiance 0.5 from group `group` alone, half of it direct.
 fn lit_by(num_groups: usize, group: usize) -> Quads {
     let mut quads = Quads::with_groups(num_groups);
     let white = quads.material(paint(Vec3::ONE));
@@ -47,7 +47,7 @@ fn the_next_picture_shows_light_that_was_dimmed_or_written_again() {
     let of_the_other = RenderSettings { group_weights: vec![Vec3::splat(0.5), Vec3::ONE], ..plain() };
     assert_eq!(shown(&scene, &of_the_other), HALF);
     assert_eq!(shown(&scene, &RenderSettings { indirect: 0.0, ..of_the_other }), QUARTER);
-    // Renewed light of the same scene, then another scene of the same size.
+    // Replaces the light of the same scene, then draws another scene of the same size.
     quads.light(GroupId(1), |_| Vec3::splat(0.25 * PI), |_| Vec3::ZERO);
     scene.set_light(gpu, &quads.baked.light);
     assert_eq!(shown(&scene, &plain()), QUARTER);

@@ -12,7 +12,7 @@ use super::stage::{SIZE, assert_close, draw, plain, quarters, radiance_at};
 use crate::support::device::gpu;
 use crate::support::quads::{Quads, paint, slot, square_camera, texture};
 
-/// A white square with a hole in its upper left quarter, before a red wall.
+/// A white square with a hole in its upper left quarter, in front of a red wall.
 fn window(alpha_mode: AlphaMode, alpha: u8) -> Quads {
     let mut quads = Quads::with_groups(1);
     let solid = [255; 4];
@@ -50,7 +50,7 @@ fn opaque_surfaces_ignore_alpha() {
     assert_close(radiance_at(&picture, 16, 16), Vec3::ONE);
 }
 
-/// The square seen from behind.
+/// The square, seen from behind.
 fn from_behind(material: Material) -> Quads {
     let mut quads = Quads::with_groups(1);
     let material = quads.material(material);
@@ -59,7 +59,7 @@ fn from_behind(material: Material) -> Quads {
     quads
 }
 
-/// Radiance and coverage in the middle.
+/// Returns radiance and coverage in the middle of the picture.
 fn middle(quads: &Quads, settings: &RenderSettings) -> Option<[f32; 2]> {
     let picture = draw(quads, settings)?;
     let [r, _, _, a] = picture.radiance[(SIZE / 2 * SIZE + SIZE / 2) as usize];
@@ -79,7 +79,7 @@ fn a_back_is_culled_or_black_or_a_second_face() {
 
 #[test]
 fn baked_twins_are_seen_each_from_its_side() {
-    // The front twin looks away and is lit ten times as much.
+    // The front twin faces away from the camera and is lit ten times as strongly.
     let mut quads = from_behind(Material { double_sided: true, ..paint(Vec3::ONE) });
     quads.quad(Vec3::new(-1.0, -1.0, 0.0), 2.0 * Vec3::X, 2.0 * Vec3::Y, hemicube::base::ids::MaterialId(0));
     [2, 3].map(TriangleId).into_iter().for_each(|back| quads.baked.scene.sides.add_back(back));

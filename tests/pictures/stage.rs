@@ -12,7 +12,7 @@ use crate::support::quads::{Quads, paint, slot, square_camera, texture};
 
 pub const SIZE: u32 = 64;
 
-/// Settings that display radiance without exposure or tone map.
+/// Settings that display radiance without exposure or tone mapping.
 pub fn plain() -> RenderSettings {
     RenderSettings {
         exposure: Exposure::Ev(0.0),
@@ -40,7 +40,7 @@ pub fn display_at(picture: &Picture, x: u32, y: u32) -> [u8; 3] {
     [picture.display[at], picture.display[at + 1], picture.display[at + 2]]
 }
 
-/// Radiance in the middle of the square.
+/// Returns the radiance in the middle of the square.
 pub fn centre(quads: &Quads, settings: &RenderSettings) -> Option<Vec3> {
     draw(quads, settings).map(|picture| radiance_at(&picture, SIZE / 2, SIZE / 2))
 }
@@ -50,7 +50,7 @@ pub fn assert_close(found: Vec3, expected: Vec3) {
     assert_within(1e-3, found, expected);
 }
 
-/// Asserts that colours are equal within a share of the largest channel.
+/// Asserts that colours are equal within `tolerance`, a share of the largest channel.
 #[track_caller]
 pub fn assert_within(tolerance: f32, found: Vec3, expected: Vec3) {
     let largest = expected.abs().max_element().max(1e-3);
@@ -65,7 +65,7 @@ pub fn four_texels() -> Quads {
     quads
 }
 
-/// Display colours of the four quarters, row by row.
+/// Returns the display colours of the four quarters, row by row.
 pub fn quarters(picture: &Picture) -> [[u8; 3]; 4] {
     [(16, 16), (48, 16), (16, 48), (48, 48)].map(|(x, y)| display_at(picture, x, y))
 }

@@ -19,7 +19,7 @@ use crate::support::screen::displayed;
 
 const SIZE: [u32; 2] = [160, 90];
 
-/// The Cornell box in small elements, with light that varies like a wave.
+/// The Cornell box in small elements, with light that varies in waves.
 fn waving() -> BakedScene {
     let scene = builtin::cornell();
     let mesh = PatchMesh::new(&scene, &MeshSettings { element_size: 0.2, patch_size: 1.0 }).expect("a mesh");
@@ -33,7 +33,7 @@ fn waving() -> BakedScene {
     baked
 }
 
-/// Largest difference of display values, and share of pixels that differ by more than two steps.
+/// Returns the largest difference of display values, and the share of pixels that differ by more than two steps.
 fn difference(a: &[u8], b: &[u8]) -> (u8, f64) {
     let pixels = a.as_chunks::<4>().0.iter().zip(b.as_chunks::<4>().0);
     let steps = pixels.map(|(a, b)| a.iter().zip(b).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0));
@@ -42,7 +42,7 @@ fn difference(a: &[u8], b: &[u8]) -> (u8, f64) {
     (largest, num_far as f64 / f64::from(num))
 }
 
-/// Pictures with tiles and without.
+/// Draws a picture with tiles and one without.
 fn both(gpu: &Gpu, baked: &BakedScene, camera: &Camera, settings: &RenderSettings, samples: u32) -> [Vec<u8>; 2] {
     let with_tiles = SceneBuffers::new(gpu, baked);
     assert!(with_tiles.tiled.is_some());

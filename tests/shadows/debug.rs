@@ -62,7 +62,8 @@ fn a_map_shows_the_cube_nearer_than_the_floor() {
     let Some(gpu) = gpu() else { return };
     let shot = stage().shot(gpu);
     let shown = picture(gpu, &shot, &settings(ShadowTechnique::Map), Some(DebugView::Map));
-    // Faces of 85 pixels in two rows of three; the light looks down in the first of the second row.
+    // The faces are squares of 85 pixels in two rows of three. The light looks down in the first face of the second
+    // row.
     let side = SIZE[0] as usize / 3;
     let left = (SIZE[0] as usize - 3 * side) / 2;
     let (row, column) = (SIZE[1] as usize / 2 + side / 2, left + side / 2);

@@ -11,7 +11,8 @@ use hemicube::render::{ShadowScene, ShadowTechnique, View};
 use super::stage::{SIZE, Stage, at, num_different, places, raytraced, settings};
 use crate::support::device::gpu;
 
-/// A second device of the adapter, without features: 24 bits of depth, light is added up in 16-bit floats.
+/// A second device of the adapter, without optional features: depth has 24 bits, and light is added up in 16-bit
+/// floats.
 fn plain_device(gpu: &Gpu) -> Gpu {
     let descriptor = wgpu::DeviceDescriptor { required_limits: gpu.adapter.limits(), ..Default::default() };
     let (device, queue) = pollster::block_on(gpu.adapter.request_device(&descriptor)).expect("a plain device");

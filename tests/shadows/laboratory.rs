@@ -1,4 +1,4 @@
-//! What the viewer shows of shadows: light that is added up in parts, known faults, chosen planes and casters, times.
+//! Shadow features of the viewer: light that is added up in parts, known faults, chosen planes and casters, times.
 
 use glam::Vec3;
 use hemicube::base::ids::{GroupId, InstanceId, TriangleId};
@@ -77,7 +77,7 @@ fn batches_add_up_to_the_light_of_all_points() {
 #[test]
 fn kept_maps_show_the_same_as_new_maps() {
     let Some(gpu) = gpu() else { return };
-    // More faces than are kept, so that some are replaced.
+    // More faces than the cache holds, so that some are replaced.
     let lit_by_three = |height: f32| {
         let mut stage = Stage::new();
         stage.cube(at(0.0, height, 0.0), 0);
@@ -119,7 +119,7 @@ fn depth_pass_without_its_cure_is_known_to_be_wrong_if_the_eye_is_in_a_shadow() 
         known_fault(&shot.shadows, &View::from_camera(&shot.camera, 1.5), settings)
     };
     assert_eq!(fault(&stage, &plain), None, "the eye is in the light");
-    // Under the cube, seen from the lamp at (0.7, 4, 0.4).
+    // Under the cube, as seen from the lamp at (0.7, 4, 0.4).
     stage.seen(Vec3::new(-0.3, 0.8, -0.2), Vec3::new(3.0, 0.0, 0.0));
     assert_eq!(fault(&stage, &plain), Some(KnownFault::EyeInVolume { lamp: 0 }));
     assert_eq!(fault(&stage, &settings(ShadowTechnique::VolumeDepthPass)), None, "it is cured");
@@ -156,8 +156,8 @@ fn planes_and_casters_can_be_chosen() {
     assert!(second > 100 && second < both - 100, "{second} of {both}");
     planar.planar.toggle_caster(InstanceId(1));
     assert_eq!(dark(&planar).0, both, "if none is chosen, all throw shadows");
-    // The other triangle of the floor is in the same plane: the plane is removed, and the largest planes receive
-    // shadows.
+    // The other triangle of the floor is in the same plane. Toggling it removes the plane, and the largest planes
+    // receive shadows again.
     planar.planar.toggle_receiver(&stage.scene, TriangleId(1));
     assert!(planar.planar.receivers.is_empty() && dark(&planar).1 > on_floor);
 }
@@ -169,7 +169,7 @@ fn every_pass_is_timed() {
     let mut easel = Easel::new(gpu);
     let watch = Stopwatch::new(gpu);
     let view = easel.target.create_view(&Default::default());
-    // More points than the surface pass can add itself.
+    // More samples than the surface pass can add itself.
     let map = ShadowSettings { light_samples: 8, ..settings(ShadowTechnique::Map) };
     let render_settings = RenderSettings { shadows: Some(map), ..RenderSettings::default() };
     let mut encoder = gpu.device.create_command_encoder(&Default::default());

@@ -26,7 +26,7 @@ fn soft_shadows_are_the_mean_of_rays_to_the_same_points() {
     assert_eq!((truth.samples.len(), num_different(&shadow_difference(&found, &truth))), (64, 0));
     let [soft, rays] =
         [ShadowTechnique::VolumeDepthFail, ShadowTechnique::Raytraced].map(|t| shot.picture(gpu, &with(t), 1));
-    // The sums agree except at the edges of a sample's shadow.
+    // The sums agree except at the edges of the shadows of single samples.
     let is_at_edge = at_edges(&truth);
     let num_compared = is_at_edge.iter().filter(|is_at_edge| !**is_at_edge).count();
     assert!(num_compared > is_at_edge.len() / 2, "{num_compared} pixels compared");
@@ -36,7 +36,7 @@ fn soft_shadows_are_the_mean_of_rays_to_the_same_points() {
     }
 }
 
-/// Returns the pixels with a neighbour whose decision about some sample differs: its edge may move by a pixel.
+/// Returns the pixels that have a neighbour whose decision about a sample differs. The edge there may shift by a pixel.
 fn at_edges(truth: &Decisions) -> Vec<bool> {
     let [width, height] = truth.size.map(|side| side as usize);
     let around = |at: usize, limit: usize| at.saturating_sub(1)..=(at + 1).min(limit - 1);

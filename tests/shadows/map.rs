@@ -23,7 +23,7 @@ fn case_22_maps_are_right_within_their_resolution_and_show_acne_without_bias() {
     for kind in kinds {
         let mut stage = Stage::new();
         stage.cube(at(0.0, 1.0, 0.0), 0).sphere(Vec3::new(-1.6, 1.0, 0.3), 0.6).light(kind);
-        // A slope in every map, because a floor below the light has the same depth everywhere and shows no acne.
+        // A slope that every map shows. A floor below the light has the same depth everywhere and shows no acne.
         stage.quad(Vec3::new(1.2, 0.0, 2.0), Vec3::new(1.4, 1.0, 0.0), Vec3::new(0.0, 0.0, -3.0));
         let shot = stage.shot(gpu);
         let mut map = settings(ShadowTechnique::Map);

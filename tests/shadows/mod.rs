@@ -1,4 +1,4 @@
-//! Shadows: each technique compared with rays, on scenes that are hard for it.
+//! Shadows: each technique compared with rays, on scenes that are difficult for it.
 
 mod debug;
 mod devices;

@@ -1,4 +1,4 @@
-//! Planar shadows: right on their receivers, and with each fault of the textbook if its cure is off.
+//! Planar shadows: correct on their receivers, and with each fault of the textbook if its cure is off.
 
 use glam::Vec3;
 use hemicube::render::{ShadowSettings, ShadowTechnique};
@@ -11,7 +11,7 @@ use crate::support::device::gpu;
 fn case_21_planar_shadows_show_each_fault_if_its_cure_is_off() {
     let Some(gpu) = gpu() else { return };
     let mut stage = Stage::new();
-    // A box through the floor, one over another, one whose shadow reaches beyond the floor, and one below the floor.
+    // A box through the floor, one above another, one whose shadow reaches beyond the floor, and one below the floor.
     stage.cube(at(-1.5, 0.2, 0.0), 0).cube(at(0.5, 1.0, 0.0), 0).cube(at(0.6, 2.2, 0.1), 0).cube(at(3.4, 0.9, 0.0), 0);
     stage.cube(at(1.0, -1.5, 2.5), 0);
     // A lower floor beyond the edge of the upper one.

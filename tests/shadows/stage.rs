@@ -1,4 +1,4 @@
-//! Scenes that are hard for shadows, and what is asserted of them.
+//! Scenes that are difficult for shadows, and assertions about them.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
@@ -25,7 +25,7 @@ pub struct Stage {
 }
 
 impl Stage {
-    /// The floor alone, lit by a point light and seen from one side.
+    /// Creates the floor alone, lit by a point light and seen from one side.
     pub fn new() -> Self {
         let mut scene = Scene { materials: vec![paint()], light_groups: vec!["light".to_owned()], ..Scene::default() };
         scene.instances.push(Instance { name: "all".to_owned(), triangles: 0..0 });
@@ -67,7 +67,7 @@ impl Stage {
         self
     }
 
-    /// A parallelogram with its front towards `u` x `v`; its corners are not shared.
+    /// Adds a parallelogram with its front towards `u` x `v`. Its corners are not shared.
     pub fn quad(&mut self, origin: Vec3, u: Vec3, v: Vec3) -> &mut Self {
         self.quad_of(origin, u, v, 0)
     }
@@ -77,7 +77,7 @@ impl Stage {
         self.triangle([origin, origin + u + v, origin + v], material)
     }
 
-    /// The sides of a unit cube under `transform`, without the first `num_open`.
+    /// Adds the sides of a unit cube under `transform`, without the first `num_open`.
     pub fn cube(&mut self, transform: Mat4, num_open: usize) -> &mut Self {
         let sides = [(Vec3::Y, Vec3::Z, Vec3::X), (Vec3::X, Vec3::Y, Vec3::Z), (Vec3::Z, Vec3::X, Vec3::Y)];
         let faces = sides.into_iter().flat_map(|(n, u, v)| [(n, u, v), (-n, v, u)]);
@@ -144,7 +144,7 @@ impl Stage {
         }
     }
 
-    /// Fails if volumes, joined or not and counted in either way, decide otherwise than rays.
+    /// Fails if the decisions of volumes, joined or not and counted either way, differ from those of rays.
     #[track_caller]
     pub fn assert_volumes_are_exact(&self) {
         let Some(gpu) = gpu() else { return };
@@ -195,7 +195,7 @@ impl Shot {
         shadow_difference(&self.decisions(gpu, settings), &self.decisions(gpu, &raytraced())).share
     }
 
-    /// The request of a picture with the lights of the scene.
+    /// Creates a request for a picture with the lights of the scene.
     pub fn request<'a>(&'a self, settings: &'a RenderSettings) -> PictureRequest<'a> {
         let request = PictureRequest::new(&self.buffers, &self.camera, SIZE, settings);
         PictureRequest { shadows: Some(&self.shadows), ..request }
@@ -229,7 +229,7 @@ pub fn num_different(difference: &ShadowDifference) -> usize {
     difference.count.iter().filter(|&&count| count > 0).count()
 }
 
-/// Returns the first pixels that differ: column, row, and whether the light is visible by mistake.
+/// Returns the first pixels that differ: column, row, and true if the light is visible by mistake.
 pub fn places(difference: &ShadowDifference) -> Vec<(usize, usize, bool)> {
     let width = difference.size[0] as usize;
     let differing = (0..difference.count.len()).filter(|&pixel| difference.count[pixel] > 0);

@@ -1,4 +1,4 @@
-//! One scene with all known hard cases, seen from positions that are hard for shadows.
+//! One scene with all known hard cases, seen from positions that are difficult for shadows.
 
 use glam::{Mat4, Quat, Vec3};
 use hemicube::gpu::Gpu;
@@ -10,10 +10,10 @@ use super::stage::{Shot, Stage, at, num_different, paint, places, raytraced, set
 use crate::support::device::gpu;
 use crate::support::quads::{slot, texture};
 
-/// Small, because volumes cover the picture thousands of times.
+/// The picture is small, because volumes cover it thousands of times.
 const SIZE: [u32; 2] = [128, 96];
 
-/// All bodies beside each other; the numbers are those of the cases.
+/// Creates all bodies, side by side. The numbers are those of the cases.
 fn bodies() -> Stage {
     let mut stage = Stage::new();
     let turned = Mat4::from_quat(Quat::from_rotation_y(0.7));
@@ -95,7 +95,7 @@ fn cameras() -> Vec<(&'static str, Camera)> {
     ]
 }
 
-/// Each camera with one of the lights in turn.
+/// Returns each camera with one of the lights in turn.
 fn views(gpu: &Gpu) -> impl Iterator<Item = (String, Shot)> {
     cameras().into_iter().zip(lights().into_iter().cycle()).map(|((place, camera), (light, kind))| {
         let mut stage = bodies();

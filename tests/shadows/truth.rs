@@ -27,7 +27,7 @@ fn the_shadow_of_a_quad_is_its_image_from_the_light() {
         let point = stage.floor_under(x, y);
         let is_on_floor = point.y.abs() < 1e-3 && point.x.abs() < 3.9 && point.z.abs() < 3.9;
         let over = crossing(point, light, 1.5);
-        // Distance of the crossing into the quad, negative outside.
+        // Depth of the crossing inside the quad, negative outside.
         let depth = (0.6 - over.x.abs()).min(0.5 - over.y).min(over.y + 0.5);
         if !is_on_floor || depth.abs() < 1e-4 {
             continue;
@@ -55,9 +55,10 @@ fn the_shadow_of_a_round_body_is_that_of_its_triangles() {
         if !is_on_floor || distance(eye) < 1.0 {
             continue;
         }
-        // The triangles lie between the sphere and one that is smaller by the height of an arc of 18 degrees.
+        // The triangles lie between the sphere and a smaller one; the radii differ by the height of an arc of 18
+        // degrees.
         let is_lit = found.samples[0].lit[(y * SIZE[0] + x) as usize];
-        // A line of sight begins a ten-thousandth of a metre before the floor.
+        // A line of sight begins a ten-thousandth of a metre in front of the floor.
         if distance(light) > 1.001 {
             assert!(is_lit, "pixel {x}, {y} beside the ball");
         } else if distance(light) < 0.97 {

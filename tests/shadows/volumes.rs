@@ -154,7 +154,7 @@ fn case_15_triangles_twice_and_without_area() {
 #[test]
 fn case_16_corners_in_the_middle_of_edges() {
     let mut stage = Stage::new();
-    // One quad beside seven that share its edge, in a tilted plane where nothing is exact.
+    // One quad beside seven that share its edge, in a tilted plane with inexact coordinates.
     let (u, v) = (Vec3::new(1.3, 0.17, 0.29), Vec3::new(-0.23, 0.31, -1.1));
     let origin = Vec3::new(-1.0, 1.7, 0.6);
     stage.quad(origin, u, v);

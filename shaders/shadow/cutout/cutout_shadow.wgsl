@@ -1,10 +1,10 @@
-// Cut-out shadow pass: keeps the visible points from which the line to the light meets a solid place of a caster with
-// holes.
+// Cut-out shadow pass: keeps the visible points whose line to the light hits a solid place of a caster with holes, and
+// discards the others.
 
 struct CutoutCorner {
-    // Metres.
+    // Position, metres.
     position: vec3f,
-    // Least alpha that is solid.
+    // Smallest alpha that is solid.
     solid_alpha: f32,
     // Both coordinate sets.
     uv: vec4f,
@@ -27,13 +27,14 @@ const NO_TRIANGLE: u32 = 0xffffffffu;
 @group(3) @binding(0) var<storage, read> cutouts: array<CutoutCorner>;
 @group(3) @binding(1) var<storage, read> nodes: array<CutoutNode>;
 
-// Triangles are enlarged by this share of their size, so that no line passes between two.
+// Triangles are enlarged by this share of their size, so that no line passes between two of them.
 const OVERLAP: f32 = 1e-5;
-// Least component of a direction, so that no division is by zero.
+// Smallest absolute component of a direction. It prevents a division by zero.
 const FLATTEST: f32 = 1e-30;
 const ENDLESS: f32 = 1e30;
 
-// Distance of a line's origin from its surface, as a share of the way to the eye; the same as for ray-traced shadows.
+// Distance of a line's origin from its surface, as a share of the distance to the eye. It is the same for ray-traced
+// shadows.
 const TOWARDS_EYE: f32 = 1e-5;
 
 @fragment
@@ -46,7 +47,8 @@ fn fragment(in: VisiblePoint) {
     while at < arrayLength(&nodes) {
         let node = nodes[at];
         if !is_crossed(node, origin, inverse, reach) {
-            // Software drivers also run pixels outside the triangle, whose loads return zero; this ends their loop.
+            // Software drivers also run pixels outside the triangle, and their loads return zero. The maximum ends
+            // their loop.
             at = max(node.skip, at + 1u);
             continue;
         }
@@ -58,7 +60,7 @@ fn fragment(in: VisiblePoint) {
     discard;
 }
 
-// Whether the line meets the box of a node within its reach.
+// Returns true if the line hits the box of a node within its reach.
 fn is_crossed(node: CutoutNode, origin: vec3f, inverse: vec3f, reach: f32) -> bool {
     let a = (node.low - origin) * inverse;
     let b = (node.high - origin) * inverse;
@@ -72,7 +74,7 @@ fn towards_eye(point: vec3f) -> vec3f {
     return frame.eye.xyz - frame.eye.w * point;
 }
 
-// Whether the line from `origin` to the light meets a solid place of the triangle (Moeller and Trumbore 1997).
+// Returns true if the line from `origin` to the light hits a solid place of the triangle (Moeller and Trumbore 1997).
 fn is_stopped(first: u32, origin: vec3f, to_light: vec3f) -> bool {
     let corner = cutouts[first].position;
     let edge_1 = cutouts[first + 1u].position - corner;

@@ -1,6 +1,6 @@
-// Debug view: depth in the faces of a shadow map; near is bright, far is dark.
+// Debug view: draws the depth in the faces of a shadow map. Near is bright, far is dark.
 
-// The format of the target converts to sRGB.
+// True if the format of the target encodes sRGB itself.
 override TARGET_ENCODES: bool = false;
 override IS_PERSPECTIVE: bool = true;
 // Near plane of a map, as a share of the scene's extent (src/render/shadow/map/projection.rs).

@@ -1,12 +1,12 @@
-// Debug view: the counts of the stencil, in colours over the picture.
+// Debug view: draws the counts of the stencil as colours over the picture.
 
-// The format of the target converts to sRGB.
+// True if the format of the target encodes sRGB itself.
 override TARGET_ENCODES: bool = false;
 // Bits of the stencil that are counts.
 override COUNT_BITS: u32 = 255u;
-// Higher counts have the colour of this one.
+// Largest count with a colour of its own; higher counts have the same colour.
 const MOST: f32 = 8.0;
-// Colour of the count 0: the picture shows through.
+// Colour of the count 0. It is translucent and only dims the picture.
 const NONE: vec4f = vec4f(0.04, 0.045, 0.06, 0.6);
 // Colour of a negative count, which is a fault: more volumes were left than entered.
 const NEGATIVE: vec3f = vec3f(1.0, 0.2, 0.9);

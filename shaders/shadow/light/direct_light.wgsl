@@ -1,7 +1,7 @@
 // Direct light pass: adds the irradiance of one light sample at each visible point that is not in its shadow.
 //
-// The stencil test has discarded points in shadow volumes and under planar shadows; `visibility` is the share of the
-// light that a shadow map lets through.
+// The stencil test has already discarded points in shadow volumes and under planar shadows. `visibility` returns the
+// fraction of the light that a shadow map lets through.
 
 @fragment
 fn fragment(in: LitPoint, @builtin(front_facing) is_front: bool) -> @location(0) vec4f {

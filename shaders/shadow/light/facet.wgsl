@@ -11,8 +11,8 @@ fn seen_normal(normal: vec3f, is_front: bool) -> vec3f {
     return normalize(select(-normal, normal, is_front));
 }
 
-// Projects a point back on to the plane of its triangle. Some drivers return centroids beside it, and a point behind
-// its plane is in shadow.
+// Projects a point back on to the plane of its triangle. Some drivers return centroids slightly off the plane, and a
+// point behind the plane would be in shadow.
 fn on_facet(point: vec3f, middle: vec3f, facet: vec3f) -> vec3f {
     return point - dot(point - middle, facet) / dot(facet, facet) * facet;
 }

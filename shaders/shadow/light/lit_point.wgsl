@@ -7,11 +7,11 @@ struct Vertex {
 
 struct LitPoint {
     @builtin(position) @invariant position: vec4f,
-    // Metres; centroid, so that the point lies on its triangle.
+    // Position in light space, metres. It is interpolated at the centroid, so that the point lies on its triangle.
     @location(0) @interpolate(perspective, centroid) point: vec3f,
     // Shading normal of the front, of any length.
     @location(1) @interpolate(perspective, centroid) normal: vec3f,
-    // The point at the centre of the pixel, on the plane of its triangle: unlike a centroid it has derivatives.
+    // The point at the centre of the pixel, on the plane of its triangle. Unlike a centroid it has derivatives.
     @location(2) middle: vec3f,
 }
 

@@ -24,7 +24,7 @@ fn vertex(in: Vertex) -> Varying {
         coordinate(material.base_slot, in.uv));
 }
 
-// Least alpha of a surface that blends and throws a shadow.
+// Smallest alpha of a blending surface that throws a shadow.
 const HALF_OPAQUE: f32 = 0.5;
 
 // Discards the holes of casters; opaque casters have no fragment shader.

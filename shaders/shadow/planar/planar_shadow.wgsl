@@ -1,7 +1,7 @@
 // Planar shadow pass: draws receivers, and casters projected on to them by Blinn's matrix.
 
 struct Corner {
-    // Homogeneous, world space; projected casters may have any w.
+    // Homogeneous position in world space; projected casters may have any w.
     @location(0) position: vec4f,
 }
 

@@ -1,7 +1,7 @@
-// Visible points pass: position and normal of the surface in each pixel, for rays on the processor.
+// Visible points pass: stores position and normal of the surface in each pixel, for rays on the CPU.
 
 struct Output {
-    // Metres; w is 1 if there is a surface.
+    // Position, metres; w is 1 if there is a surface.
     @location(0) point: vec4f,
     @location(1) normal: vec4f,
 }

@@ -7,7 +7,7 @@ struct Vertex {
 
 struct VisiblePoint {
     @builtin(position) @invariant position: vec4f,
-    // Metres, world space; centroid, so that the point lies on its triangle.
+    // Position in world space, metres. It is interpolated at the centroid, so that the point lies on its triangle.
     @location(0) @interpolate(perspective, centroid) point: vec3f,
     // Shading normal of the front, of any length.
     @location(1) @interpolate(perspective, centroid) normal: vec3f,
