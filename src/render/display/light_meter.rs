@@ -1,8 +1,8 @@
 //! Light meter: computes the exposure of a picture on the GPU, so no frame waits for it.
 //!
-//! A histogram of log2 luminance gives the log-average, which is placed at middle grey, 0.2 of white (Reinhard et al. 2002,
-//! "Photographic Tone Reproduction for Digital Images", eq. 1), unless the brightest twentieth of the pixels would exceed one
-//! and a half times white. `display::cpu_tone_map` states the equation.
+//! A histogram of log2 luminance yields the log-average. The exposure places it at middle grey, 0.2 of white (Reinhard
+//! et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 1), unless the brightest twentieth of the
+//! pixels would then exceed one and a half times white. `display::cpu_tone_map` states the equation.
 
 use crate::gpu::Gpu;
 use crate::gpu::shader::{Shader, shader};

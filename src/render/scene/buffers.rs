@@ -31,7 +31,7 @@ pub struct SceneBuffers {
     pub materials: Vec<wgpu::BindGroup>,
     /// Triangles by material; those that blend come last.
     pub batches: Vec<DrawBatch>,
-    /// The same surfaces in fewer triangles if the scene is a bake.
+    /// The coarse mesh, with the same surfaces in fewer triangles, if the scene is a bake.
     pub tiled: Option<TiledMesh>,
     /// Power of two that brings the scene's radiance into the range of half floats.
     pub pre_exposure: f32,

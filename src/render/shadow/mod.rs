@@ -9,9 +9,9 @@
 //! * `raytraced`: one ray for each pixel and light sample, the reference
 //! * `cutout`: shadows of casters with holes, for the techniques that use outlines only
 //!
-//! They stand on `shared` (frame, casters, pipelines) and `light` (light samples, the direct light pass), and never
-//! import each other. `dispatch` chooses the passes of a technique, `debug` draws what a technique works with, and
-//! `comparison` measures how far two techniques differ.
+//! They use `shared` (frame, casters, pipelines) and `light` (light samples, the direct light pass), and never import
+//! each other. `dispatch` chooses the passes of a technique, `debug` draws the data of a technique, and `comparison`
+//! measures how far two techniques differ.
 //!
 //! Surfaces that blend throw shadows as if they were solid from half opacity on. They receive none and show the light
 //! of the bake.

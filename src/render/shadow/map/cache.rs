@@ -74,7 +74,7 @@ pub struct Maps {
 }
 
 impl MapCache {
-    /// Gives access to the maps.
+    /// Locks the maps and returns them.
     pub fn lock(&self) -> MutexGuard<'_, Maps> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

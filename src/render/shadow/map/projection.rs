@@ -230,7 +230,7 @@ mod tests {
             let map = MapProjection::new(bounds, &light, &MapSettings::default());
             let point = position + 1.7 * direction + Vec3::new(0.2, 0.1, -0.3);
             let drawn = map.projection_from_world[0].project_point3(point);
-            // The same as `in_map` of the shader.
+            // The same computation as `in_map` of the shader.
             let seen = light_from_world(&light).transform_point3(point) * Vec3::new(1.0, 1.0, -1.0);
             let is_parallel = light.position().w == 0.0;
             let uniform = &map.uniform;

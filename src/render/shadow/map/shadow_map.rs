@@ -61,12 +61,12 @@ impl ShadowMapPass {
         }
     }
 
-    /// Layout of bind group 2 of passes that read one map.
+    /// Returns the layout of bind group 2 of passes that read one map.
     pub fn read_layout(&self) -> &wgpu::BindGroupLayout {
         &self.read_layout
     }
 
-    /// Sampler without filtering, for `textureGather`.
+    /// Returns the sampler without filtering, for `textureGather`.
     pub fn sampler(&self) -> &wgpu::Sampler {
         &self.sampler
     }

@@ -47,7 +47,7 @@ pub struct Caster {
     pub instance: InstanceId,
 }
 
-/// Two corners and the triangles that meet there.
+/// Two corners and the triangles that share the edge between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
     /// Corners at its ends, the lower index first.

@@ -1,4 +1,4 @@
-//! Lines of sight in double precision, watertight where triangles meet.
+//! Lines of sight in double precision, watertight at the edges of triangles.
 //!
 //! The side on which a line passes an edge is computed in the same order of operations for both triangles at the edge.
 //! So a line along the edge hits at least one of them (Woop, Benthin and Wald 2013, "Watertight Ray/Triangle
@@ -199,7 +199,7 @@ mod tests {
     use crate::base::sampling::{hash, unit_float};
     use crate::scene::{Material, Triangle as SceneTriangle, Vertex};
 
-    /// A fan of triangles round a point, with coordinates that are not round numbers.
+    /// Returns a fan of triangles round a point, with coordinates that are not round numbers.
     fn fan(num_blades: u32) -> Scene {
         let mut scene = Scene { materials: vec![Material::default()], ..Scene::default() };
         let mut corner = |position| {

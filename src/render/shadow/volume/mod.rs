@@ -7,7 +7,7 @@
 //!
 //! * z-pass, here *depth-pass*: along the ray from the eye to the point. It needs no caps and fails if the near plane
 //!   cuts a volume; [`volumes`] has a cure.
-//! * z-fail, here *depth-fail*: along the ray from the point to infinity (Everitt and Kilgard 2002, "Practical and
+//! * z-fail, here *depth-fail*: along the ray from infinity to the point (Everitt and Kilgard 2002, "Practical and
 //!   robust stenciled shadow volumes"). It needs caps and a projection without a far plane, and is right everywhere.
 
 pub mod hull;

@@ -58,13 +58,15 @@ impl VolumePipelines {
     }
 }
 
-/// z-pass: counts where the depth test passes. A front face enters a volume, a back face leaves it.
+/// Returns the state of z-pass: it counts where the depth test passes. A front face enters a volume, a back face leaves
+/// it.
 fn z_pass() -> wgpu::StencilState {
     use wgpu::StencilOperation::{DecrementWrap, IncrementWrap, Keep};
     count_faces(face(Keep, IncrementWrap), face(Keep, DecrementWrap))
 }
 
-/// z-fail: counts where the depth test fails. Seen from infinity, a back face enters a volume, a front face leaves it.
+/// Returns the state of z-fail: it counts where the depth test fails. Seen from infinity, a back face enters a volume,
+/// a front face leaves it.
 fn z_fail() -> wgpu::StencilState {
     use wgpu::StencilOperation::{DecrementWrap, IncrementWrap, Keep};
     count_faces(face(DecrementWrap, Keep), face(IncrementWrap, Keep))
