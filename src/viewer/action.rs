@@ -9,7 +9,7 @@ use crate::viewer::settings::tool::Tool;
 pub enum Action {
     /// Bakes the open scene with the chosen preset.
     Bake,
-    /// Ends the bake and keeps what is solved.
+    /// Ends the bake. The light solved so far remains.
     CancelBake,
     /// Starts a bake, or ends the one that runs.
     ToggleBake,

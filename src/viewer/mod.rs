@@ -5,7 +5,7 @@
 //! | room | what |
 //! |---|---|
 //! | [`camera`] | pose and movement of the camera, walking, collision |
-//! | [`settings`], [`preferences`], `action` | what the user sets, what is kept between runs, what keys and panels request |
+//! | [`settings`], [`preferences`], `action` | what the user sets, what is stored between runs, what keys and panels request |
 //! | `solution` | the solved light, and what is computed from it: lux meter, patch view, traced view, recording |
 //! | `job` | threads for these computations |
 //! | [`picture`] | the content of a picture of the scene |

@@ -129,7 +129,7 @@ impl CameraController {
         PACE * self.scale * self.speed_factor * if self.is_walking() { 1.0 } else { FLYING }
     }
 
-    /// Moves for `seconds`, at most a quarter of a second, so that a long frame does not cause a leap.
+    /// Moves for `seconds`, at most a quarter of a second, so that the camera does not leap after a long frame.
     pub fn advance(&mut self, input: MotionInput, seconds: f32, collider: &Collider) {
         let seconds = seconds.min(MAX_FRAME);
         self.pose.turn(input.turn_left * TURN_RATE * seconds, input.turn_up * TURN_RATE * seconds);

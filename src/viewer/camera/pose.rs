@@ -81,7 +81,7 @@ impl CameraPose {
         (half > 0.0).then(|| [seen.x / (half * aspect), seen.y / half])
     }
 
-    /// Turns as [`CameraPose::turn`] does, but about `pivot`, which keeps its position in the picture.
+    /// Turns as [`CameraPose::turn`] does, but about `pivot`, whose position in the picture does not change.
     pub fn orbit(&mut self, pivot: Vec3, left: f32, up: f32) {
         let arm = self.rotation().inverse() * (self.position - pivot);
         self.turn(left, up);

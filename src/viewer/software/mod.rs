@@ -10,11 +10,11 @@
 //! | `software_renderer` | draws pictures of a movement with one sample per pixel instead of four | the CPU stores and resolves every sample; the gain was not measured separately |
 //! | `sketch_size` | halves the width and height of moving pictures if a full one takes longer than 16 ms and half the size helps | the size follows the measured times, so scenes that gain nothing stay sharp |
 //! | `software_renderer`, last exposure | shows a moving picture under the exposure metered for the one before | the surface pass writes display colours at once: 5 ms per picture less than radiance and tone map |
-//! | `kept_side` | keeps the side panel as a texture and redraws it if one of its shapes has changed | its hundreds of glyphs took longer than the picture |
+//! | `kept_side` | caches the side panel as a texture and repaints it if one of its shapes has changed | its hundreds of glyphs took longer than the picture |
 //! | `warm_up` | draws a picture before the window shows one | lavapipe compiles a shader when it first draws, which delayed the first step of a walk |
 //! | `window::surface` | waits for the frame before the bake resumes | otherwise the bake takes the cores that the frame is drawn on |
-//! | `gpu::software` | keeps the allocator from returning memory after each submission | a third of the time of a hemicube (glibc) |
-//! | `bake::settings::method` | finds form factors by rays by default | a ray visits the triangles near it, an item buffer draws every triangle that may cover a pixel |
+//! | `gpu::software` | stops the allocator from returning memory to the system after each submission | a third of the time of a hemicube (glibc) |
+//! | `bake::settings::method` | computes form factors by rays by default | a ray visits the triangles near it, an item buffer draws every triangle that may cover a pixel |
 //!
 //! Other parts were designed for this driver but also run on hardware, where their gain is not measured:
 //!

@@ -52,7 +52,7 @@ impl Viewer {
                 Some(Detail::Sketch)
             }
             Change::Content => Some(Detail::Fine),
-            // New light keeps the level of detail.
+            // New light does not change the level of detail.
             Change::Light if sketch_ends.is_some() => Some(Detail::Sketch),
             Change::Light => Some(at_rest),
             Change::None => {

@@ -37,7 +37,7 @@ pub struct WindowSurface {
 pub enum FrameOutcome {
     /// The frame is on the screen.
     Presented,
-    /// The surface has been configured anew: the frame has to be drawn again.
+    /// The surface has been configured again, so the frame has to be drawn again.
     Retry,
     /// The window is not visible.
     Hidden,
