@@ -9,7 +9,7 @@ import bpy
 def contents(path):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=path)
-    # Blender numbers what would else have the same name.
+    # Blender appends a number to objects whose name is taken.
     plain = lambda name: name.rsplit(".", 1)[0] if name[-4:-3] == "." and name[-3:].isdigit() else name
     objects = list(bpy.data.objects)
     of = lambda kind: sorted(plain(o.name) for o in objects if o.type == kind)

@@ -1,9 +1,9 @@
-// Writes tests/files/*.glb: a small scene in plain glTF 2.0, and the same scene by way of each extension that is read.
+// Writes tests/files/*.glb: a small scene in plain glTF 2.0, and the same scene with each extension that is read.
 //
-// node make_files.mjs small writes a coarser set to fuzz/small, for fuzzers to begin with.
+// node make_files.mjs small writes a coarser set to fuzz/small, the first input of the fuzzers.
 //
 // The encoders are those of glTF Transform, Draco, meshoptimizer, sharp and Basis Universal. tests/scene/twins.rs loads every
-// file and holds it against its plain twin.
+// file and compares it with its plain twin.
 
 import { writeFile } from 'node:fs/promises';
 
@@ -27,7 +27,7 @@ const io = new NodeIO().registerExtensions(ALL_EXTENSIONS).registerDependencies(
   'meshopt.decoder': MeshoptDecoder,
 });
 
-/// A ball of columns x rows squares, smooth, with texture coordinates and vertex colours.
+/// Builds a smooth ball of columns x rows quadrilaterals, with texture coordinates and vertex colours.
 function ball(document, radius = 1) {
   const [positions, normals, uv, colours, indices] = [[], [], [], [], []];
   for (let j = 0; j <= rows; j++) {
@@ -58,7 +58,7 @@ function ball(document, radius = 1) {
     .setIndices(accessor(Accessor.Type.SCALAR, new Uint16Array(indices)));
 }
 
-/// Soft hills of colour, as photographs have them.
+/// Draws smooth gradients of colour, as in photographs.
 async function picture() {
   const size = pixelsAcross;
   const pixels = Buffer.alloc(size * size * 3);
@@ -71,7 +71,7 @@ async function picture() {
   return new Uint8Array(await sharp(pixels, { raw: { width: size, height: size, channels: 3 } }).png().toBuffer());
 }
 
-/// A camera that sees all places of the ball.
+/// Adds a camera with the ball in all its positions in view.
 function addCamera(document, scene, distance) {
   const camera = document.createCamera('view').setType('perspective').setYFov(0.8).setZNear(0.1).setAspectRatio(1);
   scene.addChild(document.createNode('view').setCamera(camera).setTranslation([0, 0, distance]));
@@ -131,14 +131,14 @@ for (const [name, Indices, Colours, largest] of [['bytes', Uint8Array, Uint8Arra
   await write(name, document);
 }
 
-// Sparse: the positions are zeros but for the rows that are told; every row is.
+// Sparse accessor: positions are zero except for the listed rows. Every row is listed.
 {
   const document = await plain();
   document.getRoot().listMeshes()[0].listPrimitives()[0].getAttribute('POSITION').setSparse(true);
   await write('sparse', document);
 }
 
-// A second set of coordinates carries the texture.
+// The texture uses the second set of coordinates.
 {
   const document = await plain();
   const primitive = document.getRoot().listMeshes()[0].listPrimitives()[0];
@@ -148,7 +148,7 @@ for (const [name, Indices, Colours, largest] of [['bytes', Uint8Array, Uint8Arra
   await write('second_uv', document);
 }
 
-// Morphing: the ball of half the size with a target that blows it up to the whole.
+// Morph target: a ball of half the size, with a target that enlarges it to full size.
 {
   const document = await plain();
   const mesh = document.getRoot().listMeshes()[0].setWeights([1]);
@@ -160,7 +160,7 @@ for (const [name, Indices, Colours, largest] of [['bytes', Uint8Array, Uint8Arra
   await write('morph', document);
 }
 
-// A skin: joints in the place of the node, which itself stands elsewhere.
+// Skin: the joints have the transform of the node. The node itself has another one.
 {
   const document = await plain();
   const root = document.getRoot();
@@ -190,7 +190,7 @@ for (const [name, Indices, Colours, largest] of [['bytes', Uint8Array, Uint8Arra
   await write('skin', document);
 }
 
-// Many places: nodes in the plain twin, instances in the other.
+// Several copies: nodes in the plain twin, instances in the other file.
 async function several(instanced) {
   const document = await plain();
   const root = document.getRoot();
@@ -216,7 +216,7 @@ async function several(instanced) {
 await write('several_plain', await several(false));
 await write('instancing', await several(true));
 
-// A variant: plain in the variant "hills", bare in none.
+// Material variant: plain in the variant "hills", bare without a variant.
 {
   const document = await plain();
   const root = document.getRoot();
@@ -230,14 +230,14 @@ await write('instancing', await several(true));
   await write('variants', document);
 }
 
-// A second scene, which is empty but for the camera.
+// A second scene, which contains only the camera.
 {
   const document = await plain();
   addCamera(document, document.createScene('empty'), 4);
   await write('two_scenes', document);
 }
 
-// A point of light, and one that a photometric file tells: 40 candela in every direction.
+// A point light, and one from a photometric file: 40 candela in every direction.
 async function lit() {
   const document = await plain();
   const lamp = document.createNode('lamp').setTranslation([1, 3, 2]).setRotation([0.6, 0, 0, 0.8]);
@@ -251,7 +251,7 @@ async function lit() {
   await write('point_light', document);
 }
 {
-  // glTF Transform does not know the extension: its JSON is added to the file.
+  // glTF Transform does not support the extension, so its JSON is added to the file.
   const { document } = await lit();
   const glb = Buffer.from(await io.writeBinary(document));
   const length = glb.readUInt32LE(12);

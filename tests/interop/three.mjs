@@ -1,9 +1,9 @@
-// node three.mjs BAKED.glb PICTURE.png CAMERA OUT.png: the file in three.js, in headless Chromium, beside our own picture
-// through the same camera at the exposure that the file states. Fails where they differ by more than the tolerance.
-// The light is in vertex colours, or in a texture that the loader takes by the plugin below (MOZ_lightmap).
+// node three.mjs BAKED.glb PICTURE.png CAMERA OUT.png: draws the file with three.js in headless Chromium and compares it
+// with our picture from the same camera, at the exposure in the file. Fails if they differ by more than the tolerance.
+// The light is in vertex colours, or in a texture that the loader reads by the plugin below (MOZ_lightmap).
 //
-// Programs differ in how they filter textures and smooth edges, which is not what is asked here. So both pictures are
-// drawn large, where either shows its textures in full, and squares of SHRINK x SHRINK pixels are compared by their means.
+// Programs differ in how they filter textures and smooth edges, which is not tested here. Both pictures are therefore
+// drawn large, so that textures show in full, and the means of squares of SHRINK x SHRINK pixels are compared.
 
 import { createServer } from 'node:http';
 import { readFile, writeFile } from 'node:fs/promises';
@@ -12,10 +12,11 @@ import puppeteer from 'puppeteer-core';
 
 const SHRINK = 4;
 
-// sRGB steps of 255: mean difference, and share of squares that differ by more than LARGE in a channel. In the
-// file light is tone-mapped before the texture is multiplied on, in our picture after. Both are alike up to where the tone map
-// rolls off (0.76, an sRGB value of 226); beyond, as in a patch of sun on dark wood, a file cannot hold what we show, because no
-// unlit surface is brighter than its texture. Such squares are left out; their share is told and bounded.
+// Tolerances in sRGB steps of 255: mean difference, and share of squares that differ by more than LARGE in a channel.
+// The file stores light that is tone-mapped before it is multiplied by the texture; our picture is tone-mapped after it.
+// Both are alike up to the shoulder of the tone map (0.76, an sRGB value of 226). Brighter squares, for example a patch of
+// sun on dark wood, cannot be stored, because no unlit surface is brighter than its texture. They are left out; their
+// share is printed and bounded.
 const MEAN = 1.5;
 const LARGE = 24;
 const LARGE_SHARE = 0.015;

@@ -1,4 +1,4 @@
-// node validate.mjs FILE...: Khronos's validator; fails where a file has an error.
+// node validate.mjs FILE...: runs Khronos's validator. Fails if a file has an error.
 
 import { readFile } from 'node:fs/promises';
 import { validateBytes } from 'gltf-validator';

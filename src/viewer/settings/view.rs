@@ -66,6 +66,6 @@ pub struct ReplaySettings {
     pub is_on: bool,
     /// Index of the moment.
     pub moment: usize,
-    /// The unshot light is added, spread evenly over the scene.
+    /// True if the unshot light is added, spread evenly over the scene.
     pub with_ambient: bool,
 }
