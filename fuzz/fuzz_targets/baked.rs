@@ -22,7 +22,7 @@ fuzz_target!(|data: &[u8]| {
     }
 });
 
-/// Bits of the light at the corners of all triangles, sorted, because the order of triangles may differ.
+/// Returns the bits of the light at the corners of all triangles, sorted, because the order of triangles may differ.
 fn corner_light(baked: &BakedScene) -> Vec<[u32; 3]> {
     let corners = baked.scene.triangles.iter().flat_map(|triangle| triangle.vertices);
     let groups = &baked.light.groups;

@@ -9,8 +9,8 @@ pub mod patch;
 #[path = "../../src/scene/mod.rs"]
 pub mod scene;
 
-/// A .glb file from the fuzzer's bytes: unchanged if they begin with `glTF`, else a valid container of the JSON before
-/// the first zero byte and the binary chunk after it, so that the fuzzer need not find valid lengths.
+/// Returns a .glb file from the fuzzer's bytes: unchanged if they begin with `glTF`, else a valid container of the JSON
+/// before the first zero byte and the binary chunk after it, so that the fuzzer need not find valid lengths.
 #[must_use]
 pub fn glb_of(data: &[u8]) -> Vec<u8> {
     if data.starts_with(b"glTF") {

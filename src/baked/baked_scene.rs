@@ -35,20 +35,20 @@ pub struct GroupLight {
 }
 
 impl BakedScene {
-    /// A scene with light at its vertices.
+    /// Returns a scene with light at its vertices.
     #[must_use]
     pub fn new(scene: Scene, light: VertexLight) -> Self {
         Self { scene, light, trees: None }
     }
 
-    /// A scene without light.
+    /// Returns a scene without light.
     #[must_use]
     pub fn dark(scene: Scene) -> Self {
         let light = VertexLight::dark(scene.light_groups.len(), scene.vertices.len());
         Self::new(scene, light)
     }
 
-    /// The elements of a mesh of `scene` as triangles, without light.
+    /// Returns the elements of a mesh of `scene` as triangles, without light.
     #[must_use]
     pub fn of_mesh(scene: &Scene, mesh: &PatchMesh) -> Self {
         let triangle = |element: &crate::patch::Element| Triangle {
@@ -84,7 +84,7 @@ impl BakedScene {
     }
 }
 
-/// The elements that are backs of others.
+/// Returns the elements that are backs of others.
 fn sides_of(mesh: &PatchMesh) -> Sides {
     let double_sided = mesh.roots.iter().filter(|root| root.has_backs);
     let fronts = double_sided.flat_map(|root| {

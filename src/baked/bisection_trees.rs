@@ -61,7 +61,7 @@ pub(crate) struct Halving {
 pub(crate) struct Inconsistent;
 
 impl BisectionTrees {
-    /// The trees of a mesh.
+    /// Returns the trees of a mesh.
     #[must_use]
     pub fn of_mesh(mesh: &PatchMesh) -> Self {
         let mut trees = Self::default();
@@ -105,12 +105,12 @@ impl BisectionTrees {
         self.nodes.append(&mut others.nodes);
     }
 
-    /// Number of elements of all trees.
+    /// Returns the number of elements of all trees.
     pub(crate) fn num_elements(&self) -> usize {
         self.iter().last().map_or(0, |tree| tree.elements.end)
     }
 
-    /// All complete trees.
+    /// Returns all complete trees.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Tree<'_>> {
         let (mut rest, mut num_elements) = (&self.nodes[..], 0usize);
         std::iter::from_fn(move || {

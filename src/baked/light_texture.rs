@@ -34,7 +34,7 @@ pub struct Texels {
 }
 
 impl Texels {
-    /// The bytes of an OpenEXR file: lux per channel in 32-bit floats.
+    /// Returns the bytes of an OpenEXR file: lux per channel in 32-bit floats.
     #[must_use]
     pub fn to_exr(&self) -> Vec<u8> {
         let channels = bytemuck::cast_slice(&self.irradiance).to_vec();

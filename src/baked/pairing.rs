@@ -24,7 +24,7 @@ pub(super) fn pair_by_position(scene: &mut Scene) {
     scene.sides.add_pairs(pairs);
 }
 
-/// Bits of the corner positions of a triangle.
+/// Returns the bits of the corner positions of a triangle.
 fn bits(scene: &Scene, triangle: TriangleId) -> [[u32; 3]; 3] {
     scene.corners(triangle).map(|corner| corner.to_array().map(f32::to_bits))
 }

@@ -5,13 +5,13 @@ use glam::{Mat4, Vec3, Vec4};
 /// An axis-aligned box.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounds {
-    /// Smallest corner.
+    /// Minimum corner.
     pub low: Vec3,
-    /// Largest corner.
+    /// Maximum corner.
     pub high: Vec3,
 }
 
-/// The half spaces whose intersection a camera sees; their normals point inwards.
+/// The view frustum of a camera as half spaces, whose normals point inwards.
 #[derive(Clone, Copy, Debug)]
 pub struct Frustum([Vec4; 5]);
 
@@ -19,50 +19,50 @@ impl Bounds {
     /// The empty box: the neutral element of [`Self::joined`].
     pub const EMPTY: Self = Self { low: Vec3::INFINITY, high: Vec3::NEG_INFINITY };
 
-    /// Smallest box that holds all points; [`Self::EMPTY`] if there are none.
+    /// Returns the smallest box that holds all points; [`Self::EMPTY`] if there are none.
     #[must_use]
     pub fn of(points: impl Iterator<Item = Vec3>) -> Self {
         points.fold(Self::EMPTY, |bounds, p| Self { low: bounds.low.min(p), high: bounds.high.max(p) })
     }
 
-    /// Smallest box that holds all points; `None` if there are none.
+    /// Returns the smallest box that holds all points; `None` if there are none.
     #[must_use]
     pub fn around(mut points: impl Iterator<Item = Vec3>) -> Option<Self> {
         let first = points.next()?;
         Some(Self { low: first, high: first }.joined(Self::of(points)))
     }
 
-    /// Smallest box that holds both boxes.
+    /// Returns the smallest box that holds both boxes.
     #[must_use]
     pub fn joined(self, other: Self) -> Self {
         Self { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 
-    /// Lengths of its edges.
+    /// Returns the lengths of its edges.
     #[must_use]
     pub fn size(&self) -> Vec3 {
         self.high - self.low
     }
 
-    /// Length of its longest edge.
+    /// Returns the length of its longest edge.
     #[must_use]
     pub fn extent(&self) -> f32 {
         self.size().max_element()
     }
 
-    /// Distance between opposite corners.
+    /// Returns the distance between opposite corners.
     #[must_use]
     pub fn diagonal(&self) -> f32 {
         self.size().length()
     }
 
-    /// Its middle.
+    /// Returns the centre of the box.
     #[must_use]
     pub fn centre(&self) -> Vec3 {
         0.5 * (self.low + self.high)
     }
 
-    /// Half of its surface area, which the surface area heuristic compares.
+    /// Returns half of its surface area, which the surface area heuristic compares.
     #[must_use]
     pub fn half_area(&self) -> f32 {
         let size = self.size();
@@ -71,7 +71,7 @@ impl Bounds {
 }
 
 impl Frustum {
-    /// The half spaces of a clip-from-world matrix, without the far plane.
+    /// Returns the frustum of a clip-from-world matrix, without the far plane.
     ///
     /// Source: Gribb and Hartmann 2001, "Fast Extraction of Viewing Frustum Planes from the World-View-Projection
     /// Matrix".
@@ -81,8 +81,8 @@ impl Frustum {
         Self([w, w + x, w - x, w + y, w - y])
     }
 
-    /// Whether a part of the box may be in view. Conservative: a box near an edge of the frustum may pass although all
-    /// of it lies outside.
+    /// Returns true if a part of the box may be in view. The test is conservative: it may return true for a box outside
+    /// the frustum, near one of its edges.
     #[must_use]
     pub fn meets(&self, bounds: &Bounds) -> bool {
         self.0.iter().all(|plane| {

@@ -5,13 +5,13 @@ use glam::Vec3;
 /// Weights of linear Rec. 709 red, green and blue in luminance Y.
 pub const LUMINANCE: Vec3 = Vec3::new(0.2126, 0.7152, 0.0722);
 
-/// Luminance Y of a linear colour, in the unit of its channels.
+/// Returns the luminance Y of a linear colour, in the unit of its channels.
 #[must_use]
 pub fn luminance(colour: Vec3) -> f32 {
     colour.dot(LUMINANCE)
 }
 
-/// Linear value of an sRGB-encoded channel, both in 0..1.
+/// Returns the linear value of an sRGB-encoded channel, both in 0..1.
 ///
 /// Source: IEC 61966-2-1.
 #[must_use]
@@ -19,14 +19,14 @@ pub fn linear_from_srgb(encoded: f32) -> f32 {
     if encoded <= 0.04045 { encoded / 12.92 } else { ((encoded + 0.055) / 1.055).powf(2.4) }
 }
 
-/// sRGB encoding of a linear channel, both in 0..1.
+/// Returns the sRGB encoding of a linear channel, both in 0..1.
 #[must_use]
 pub fn srgb_from_linear(linear: f32) -> f32 {
     let linear = linear.clamp(0.0, 1.0);
     if linear <= 0.003_130_8 { linear * 12.92 } else { 1.055 * linear.powf(1.0 / 2.4) - 0.055 }
 }
 
-/// Linear values of all 256 sRGB bytes.
+/// Returns the linear values of all 256 sRGB bytes.
 #[must_use]
 pub fn srgb_byte_table() -> [f32; 256] {
     std::array::from_fn(|byte| linear_from_srgb(byte as f32 / 255.0))

@@ -21,7 +21,7 @@ impl Fingerprint {
         self.0 = bytes.iter().fold(self.0, |hash, &byte| (hash ^ u128::from(byte)).wrapping_mul(PRIME));
     }
 
-    /// The hash.
+    /// Returns the hash.
     #[must_use]
     pub fn value(&self) -> u128 {
         self.0

@@ -7,7 +7,7 @@ macro_rules! id {
         pub struct $name(pub u32);
 
         impl $name {
-            /// The id of the `index`-th item.
+            /// Returns the id of the `index`-th item.
             ///
             /// # Panics
             /// Panics if `index` does not fit in 32 bits; the loader checks sizes, so no loaded scene is that large.
@@ -16,7 +16,7 @@ macro_rules! id {
                 Self(u32::try_from(index).expect("more than 2^32 items"))
             }
 
-            /// Index into the array of such items.
+            /// Returns the index into the array of such items.
             #[must_use]
             pub fn index(self) -> usize {
                 self.0 as usize

@@ -1,4 +1,4 @@
-//! Floor 0: types and functions that every other floor uses; they depend on no scene and no GPU.
+//! Floor 0: types and functions that every other floor uses. They depend on neither scene nor GPU.
 
 pub mod bounds;
 pub mod colour;

@@ -1,11 +1,11 @@
-//! Writes files that appear under their name only when they are complete.
+//! Writes files that appear under their final name only when they are complete.
 
 use std::fs;
 use std::io::{self, Write as _};
 use std::path::Path;
 
-/// Writes a file under a temporary name in the same folder and renames it, so that a run that stops leaves no partial
-/// file.
+/// Writes a file under a temporary name in the same folder and then renames it. A run that stops early leaves no
+/// partial file.
 ///
 /// If `path` names something that is not an ordinary file, such as `/dev/null` or a pipe, the bytes are written to it
 /// directly.
@@ -20,7 +20,7 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut builder = tempfile::Builder::new();
     #[cfg(unix)]
     {
-        // The user's mask decides who may read the file, as for any new file; temporary files are private by default.
+        // New files get the permissions that the user's mask allows; those of temporary files would be private.
         use std::os::unix::fs::PermissionsExt as _;
         builder.permissions(fs::Permissions::from_mode(0o666));
     }

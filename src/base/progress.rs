@@ -3,25 +3,25 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex};
 
-/// A stage of the bake, in the order in which they run.
+/// Stages of a bake, in the order in which they run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Stage {
     /// Reading and checking the file.
     Load,
-    /// Elements and patches.
+    /// Division of the scene into elements and patches.
     Mesh,
-    /// Direct light by rays.
+    /// Direct light, by ray tracing.
     Direct,
     /// Progressive refinement; the reported progress is the share of the light that has been shot.
     Solve,
     /// Indirect light at the vertices.
     Gather,
-    /// Rays of a picture or a measurement.
+    /// Ray tracing of a picture or a measurement.
     Trace,
 }
 
 impl Stage {
-    /// Name of the stage in a progress bar.
+    /// Returns the name of the stage in a progress bar.
     #[must_use]
     pub fn label(self) -> &'static str {
         match self {
@@ -35,20 +35,20 @@ impl Stage {
     }
 }
 
-/// Connects long work with its caller.
+/// Interface between long work and its caller.
 ///
 /// The work calls [`Progress::report`] and [`Progress::rest`] between small steps. When [`Progress::is_cancelled`]
 /// returns true, it stops and returns what it has computed so far.
 pub trait Progress: Sync {
     /// Reports that the share `done` of the stage's work, 0..1, is complete.
     fn report(&self, stage: Stage, done: f32);
-    /// Whether the work has to stop at its next step and return its partial result.
+    /// Returns true if the work has to stop at its next step and return its partial result.
     fn is_cancelled(&self) -> bool;
     /// Blocks while the caller needs the processor, as the viewer does while it draws.
     fn rest(&self) {}
 }
 
-/// Ignores all reports and never cancels.
+/// A [`Progress`] that ignores all reports and never cancels.
 pub struct Unwatched;
 
 impl Progress for Unwatched {
@@ -68,7 +68,7 @@ impl Cancel {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the flag is set.
+    /// Returns true if the flag is set.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)

@@ -2,7 +2,7 @@
 
 use glam::{Vec2, Vec3};
 
-/// A well-mixed 32-bit hash of `x` (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", PCG).
+/// Returns a well-mixed 32-bit hash of `x` (Jarzynski and Olano 2020, "Hash Functions for GPU Rendering", PCG).
 #[must_use]
 pub fn hash(x: u32) -> u32 {
     let state = x.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
@@ -16,12 +16,12 @@ pub fn unit_float(bits: u32) -> f32 {
     (bits >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
-/// The `index`-th point of the R2 low-discrepancy sequence, shifted by `seed`, in [0, 1)^2.
+/// Returns the `index`-th point of the R2 low-discrepancy sequence, shifted by `seed`, in [0, 1)^2.
 ///
 /// Source: Roberts 2018, "The Unreasonable Effectiveness of Quasirandom Sequences".
 #[must_use]
 pub fn r2(index: u32, seed: u32) -> Vec2 {
-    // The fractions 1/g and 1/g^2 of 2^32, g the plastic number: integer arithmetic is exact for any index.
+    // 2^32 / g and 2^32 / g^2, where g is the plastic number: integer arithmetic is exact for any index.
     const STEP_X: u32 = 3_242_174_889;
     const STEP_Y: u32 = 2_447_445_414;
     let x = hash(seed).wrapping_add(index.wrapping_mul(STEP_X));
@@ -29,8 +29,8 @@ pub fn r2(index: u32, seed: u32) -> Vec2 {
     Vec2::new(unit_float(x), unit_float(y))
 }
 
-/// Barycentric coordinates of a uniformly distributed point of a triangle, given a uniformly distributed point of the
-/// unit square.
+/// Returns the barycentric coordinates of a uniformly distributed point of a triangle, given a uniformly distributed
+/// point of the unit square.
 ///
 /// Source: Heitz 2019, "A Low-Distortion Map Between Triangle and Square".
 #[must_use]
@@ -46,7 +46,8 @@ pub fn triangle_from_square(square: Vec2) -> Vec3 {
     Vec3::new(1.0 - x - y, x, y)
 }
 
-/// Position of a point of the unit square along the Z-order curve: the interleaved bits of its coordinates, 16 each.
+/// Returns the position of a point of the unit square along the Z-order curve: the interleaved bits of its coordinates,
+/// 16 each.
 ///
 /// Source: Morton 1966, "A Computer Oriented Geodetic Data Base and a New Technique in File Sequencing".
 #[must_use]
@@ -61,8 +62,8 @@ pub fn morton_2d(square: Vec2) -> u32 {
     spread(square.x) | spread(square.y) << 1
 }
 
-/// Unit direction in the hemisphere round `normal`, given a uniformly distributed point of the unit square; its
-/// probability density is cos(theta) / pi per steradian.
+/// Returns the unit direction in the hemisphere round `normal`, given a uniformly distributed point of the unit square;
+/// its probability density is cos(theta) / pi per steradian.
 #[must_use]
 pub fn cosine_hemisphere(normal: Vec3, square: Vec2) -> Vec3 {
     let (tangent, bitangent) = tangent_frame(normal);
@@ -71,7 +72,8 @@ pub fn cosine_hemisphere(normal: Vec3, square: Vec2) -> Vec3 {
     tangent * (radius * cos) + bitangent * (radius * sin) + normal * (1.0 - square.x).sqrt()
 }
 
-/// Unit vectors `(tangent, bitangent)` that form a right-handed orthonormal frame with the unit vector `normal`.
+/// Returns the unit vectors `(tangent, bitangent)` that form a right-handed orthonormal frame with the unit vector
+/// `normal`.
 ///
 /// Source: Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
 #[must_use]

@@ -4,7 +4,7 @@ use std::ops::{Add, Mul};
 
 use glam::Vec3;
 
-/// The point of a triangle that is nearest to `p`.
+/// Returns the point of a triangle that is nearest to `p`.
 ///
 /// Source: Ericson 2005, "Real-Time Collision Detection", 5.1.5 (Voronoi regions of corners and edges).
 #[must_use]
@@ -31,8 +31,8 @@ pub fn closest_point([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
     }
 }
 
-/// Value at the point of a triangle with barycentric coordinates `weights`, interpolated linearly between the values at
-/// its corners.
+/// Returns the value at the point of a triangle with barycentric coordinates `weights`, interpolated linearly between
+/// the values at its corners.
 #[must_use]
 pub fn interpolate<T>([a, b, c]: [T; 3], weights: Vec3) -> T
 where
@@ -41,7 +41,8 @@ where
     a * weights.x + b * weights.y + c * weights.z
 }
 
-/// Barycentric coordinates of a point in the plane of a triangle; those of the centroid if the triangle has no area.
+/// Returns the barycentric coordinates of a point in the plane of a triangle; those of the centroid if the triangle has
+/// no area.
 #[must_use]
 pub fn barycentric([a, b, c]: [Vec3; 3], p: Vec3) -> Vec3 {
     let normal = (b - a).cross(c - a);

@@ -1,4 +1,4 @@
-//! One adapter, one device, one queue.
+//! The GPU device with its adapter and its queue.
 
 use std::sync::{Arc, OnceLock};
 
@@ -9,24 +9,24 @@ use super::tier::Tier;
 
 /// An adapter with its device and queue.
 pub struct Gpu {
-    /// The instance; the viewer makes its surface from it.
+    /// The instance, from which the viewer creates its surface.
     pub instance: wgpu::Instance,
     /// The adapter of the device.
     pub adapter: wgpu::Adapter,
-    /// Makes resources.
+    /// The device, which creates resources.
     pub device: wgpu::Device,
-    /// Takes work.
+    /// The queue, to which work is submitted.
     pub queue: wgpu::Queue,
-    /// Whether a graphics card or the processor draws.
+    /// Kind of device: graphics card or processor.
     pub tier: Tier,
     /// The shaders in use.
     pub shaders: ShaderLibrary,
-    /// Why the device was lost; empty while it works.
+    /// Reason for the loss of the device; empty while it works.
     loss: Arc<OnceLock<String>>,
 }
 
 impl Gpu {
-    /// A device for work without a window.
+    /// Returns a device for work without a window.
     ///
     /// # Errors
     /// Returns an error if there is no adapter, or if its driver gives no device.
@@ -35,7 +35,7 @@ impl Gpu {
         Self::for_surface(instance, None)
     }
 
-    /// A device that can draw to `surface` (a window), or to textures only.
+    /// Returns a device that can draw to `surface` (a window), or to textures only.
     ///
     /// # Errors
     /// Returns an error if there is no adapter, or if its driver gives no device.
@@ -55,7 +55,7 @@ impl Gpu {
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("hemicube"),
             required_features: adapter.features() & optional,
-            // The adapter's own sizes: large scenes need more than the portable 128 MiB a storage buffer.
+            // The adapter's own limits: large scenes need more than the portable 128 MiB per storage buffer.
             required_limits: adapter.limits(),
             memory_hints: wgpu::MemoryHints::Manual { suballocated_device_memory_block_size: MEMORY_BLOCK },
             ..Default::default()
@@ -64,7 +64,7 @@ impl Gpu {
         Ok(Self::from_parts(instance, adapter, device, queue))
     }
 
-    /// Takes over a device that the caller has made, and its callback for the loss of the device.
+    /// Takes over a device that the caller has created, and sets its callback for the loss of the device.
     #[must_use]
     pub fn from_parts(
         instance: wgpu::Instance,
@@ -74,11 +74,11 @@ impl Gpu {
     ) -> Self {
         let loss = Arc::new(OnceLock::new());
         let lost = Arc::clone(&loss);
-        // The first reason counts: those that follow are its consequences.
+        // Only the first reason is stored: later ones are its consequences.
         device.set_device_lost_callback(move |reason, message| drop(lost.set(format!("{message} ({reason:?})"))));
         let lost = Arc::clone(&loss);
         device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-            // Errors after a loss are its consequences; any other is a fault of this program.
+            // Errors after a loss are its consequences. Any other error is a bug of this program.
             assert!(lost.get().is_some(), "wgpu error: {error}");
         }));
         let tier = Tier::of(&adapter.get_info());
@@ -88,7 +88,7 @@ impl Gpu {
         Self { instance, adapter, device, queue, tier, shaders: ShaderLibrary::default(), loss }
     }
 
-    /// Name of the adapter, with its backend.
+    /// Returns the name of the adapter, with its backend.
     #[must_use]
     pub fn name(&self) -> String {
         let info = self.adapter.get_info();
@@ -97,13 +97,13 @@ impl Gpu {
 
     /// Checks that the device works, without waiting for it.
     ///
-    /// wgpu accepts work for a lost device and drops it, so what was drawn would be black; and it panics where it fills a new
+    /// wgpu accepts work for a lost device and drops it, so pictures would be black. It panics when it fills a new
     /// buffer of a lost device.
     ///
     /// # Errors
     /// Returns the reason if the device was lost.
     pub fn check(&self) -> Result<(), GpuError> {
-        // This delivers the callback; an error of the poll itself is that of the loss.
+        // The poll calls the callback. Its own error is ignored, because its cause is the loss of the device.
         let _ = self.device.poll(wgpu::PollType::Poll);
         self.loss.get().map_or(Ok(()), |reason| Err(GpuError::Lost(reason.clone())))
     }
@@ -119,8 +119,9 @@ impl Gpu {
     }
 }
 
-/// Size of the blocks of device memory that resources share, bytes; of memory that the host sees, half of it.
+/// Size of the blocks of device memory that resources share, bytes. Blocks of memory that the host can access are half
+/// as large.
 ///
-/// A block is held as long as one resource lies in it. With wgpu's own size, up to four times as large, a small buffer made
-/// at a busy moment held hundreds of MiB.
+/// A block stays allocated as long as one resource is in it. With wgpu's default size, up to four times as large, one
+/// small buffer created at a busy moment held hundreds of MiB.
 const MEMORY_BLOCK: std::ops::Range<u64> = 64 << 20..64 << 20;

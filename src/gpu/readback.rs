@@ -1,10 +1,10 @@
-//! Read-back: textures and buffers copied to the CPU.
+//! Copies textures and buffers to the CPU.
 
 use super::{Gpu, GpuError};
 
-/// The bytes of a whole single-sample texture, rows tightly packed.
+/// Returns the bytes of a whole single-sample texture, rows tightly packed.
 ///
-/// Blocks until the queue has drained, so it is for pictures and not for the hemicube loop.
+/// Waits until the queue is empty. It is therefore used for pictures, but not in the loop over hemicubes.
 ///
 /// # Errors
 /// Returns an error if the device was lost.
@@ -12,7 +12,7 @@ pub fn read_texture(gpu: &Gpu, texture: &wgpu::Texture, bytes_per_pixel: u32) ->
     read_aspect(gpu, texture.as_image_copy(), bytes_per_pixel)
 }
 
-/// The stencil of a whole single-sample texture, a byte a pixel.
+/// Returns the stencil of a whole single-sample texture, one byte per pixel.
 ///
 /// # Errors
 /// Returns an error if the device was lost.
@@ -46,9 +46,9 @@ fn read_aspect(gpu: &Gpu, source: wgpu::TexelCopyTextureInfo<'_>, bytes_per_pixe
     Ok(padded.chunks_exact(padded_row as usize).flat_map(|padded| &padded[..row as usize]).copied().collect())
 }
 
-/// The bytes of a whole buffer, whose usage must include `COPY_SRC`.
+/// Returns the bytes of a whole buffer, whose usage must include `COPY_SRC`.
 ///
-/// Blocks until the queue has drained, so it is for single numbers and not for the hemicube loop.
+/// Waits until the queue is empty. It is therefore used for single numbers, but not in the loop over hemicubes.
 ///
 /// # Errors
 /// Returns an error if the device was lost.
@@ -68,14 +68,14 @@ pub fn read_buffer(gpu: &Gpu, source: &wgpu::Buffer) -> Result<Vec<u8>, GpuError
 
 /// Waits for the queue and maps `buffer`.
 fn mapped_bytes(gpu: &Gpu, buffer: &wgpu::Buffer) -> Result<Vec<u8>, GpuError> {
-    // The range below says whether the buffer was mapped.
+    // Reading the range below fails if the buffer could not be mapped.
     buffer.map_async(wgpu::MapMode::Read, .., |_| {});
     gpu.wait()?;
     let view = buffer.get_mapped_range(..).map_err(|error| GpuError::Lost(error.to_string()))?;
     Ok(view.to_vec())
 }
 
-/// Value of an IEEE 754 half float: 1 sign bit, 5 bits of exponent, 10 bits of fraction.
+/// Returns the value of an IEEE 754 half float: 1 sign bit, 5 bits of exponent, 10 bits of fraction.
 #[must_use]
 pub fn f32_from_half(bits: u16) -> f32 {
     let sign = if bits >> 15 == 1 { -1.0 } else { 1.0 };

@@ -1,15 +1,15 @@
-//! Shaders as passes declare them: WGSL files laid end to end.
+//! Declaration of shaders: WGSL files concatenated to one module.
 //!
 //! Each pass declares its own [`Shader`] with the `shader!` macro. There is no preprocessor: a shader is a list of files
 //! below `shaders/`, and its variants are pipeline `override` constants. `tests/shaders.rs` finds every declaration in the
 //! sources and validates it with naga; `shader_library` reloads the files while the program runs.
 
-/// A complete WGSL module and the files it consists of.
+/// A complete WGSL module with the files of which it consists.
 #[derive(Clone, Copy)]
 pub struct Shader {
     /// Label of the module.
     pub name: &'static str,
-    /// (file name below `shaders/`, text built into the program), laid end to end.
+    /// Pairs of file name below `shaders/` and text built into the program, in order.
     pub parts: &'static [(&'static str, &'static str)],
 }
 
@@ -25,13 +25,13 @@ macro_rules! shader {
 pub(crate) use shader;
 
 impl Shader {
-    /// The built-in text.
+    /// Returns the built-in text.
     #[must_use]
     pub fn source(&self) -> String {
         self.parts.iter().map(|(_, text)| *text).collect::<Vec<_>>().join("\n")
     }
 
-    /// Both consist of the same files.
+    /// Returns true if both shaders consist of the same files.
     pub(super) fn is(&self, other: &Self) -> bool {
         self.parts.iter().map(|(file, _)| file).eq(other.parts.iter().map(|(file, _)| file))
     }
@@ -46,7 +46,7 @@ pub fn struct_layout(shader: &Shader, name: &str) -> Vec<usize> {
     members.iter().map(|member| member.offset).chain([*span]).map(|offset| offset as usize).collect()
 }
 
-/// A whole number of a WGSL module, for tests that compare Rust constants with it.
+/// Returns an integer constant of a WGSL module, for tests that compare Rust constants with it.
 #[cfg(test)]
 pub fn constant(shader: &Shader, name: &str) -> u32 {
     let module = naga::front::wgsl::parse_str(&shader.source()).expect("every shader is valid");

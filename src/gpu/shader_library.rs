@@ -1,9 +1,8 @@
-//! The shaders in use on one device, and hot reload of their text from a folder.
+//! The shaders in use on one device, and hot reload of their files from a folder.
 //!
-//! [`Shader::module`](super::shader::Shader::module) enters each shader that it compiles, so no list names them all. With a
-//! folder set, the text of a shader is read from there: [`ShaderLibrary::reload`] reads all of them again and takes the new
-//! text only if every one of them is valid, so a mistake never takes a picture away. The caller then makes its pipelines
-//! anew.
+//! [`Shader::module`](super::shader::Shader::module) registers each shader that it compiles. If a folder is set,
+//! shaders are read from the files there. [`ShaderLibrary::reload`] reads all of them again, and replaces their text
+//! only if all are valid, so an invalid file does not stop the drawing. The caller then creates its pipelines again.
 
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -25,20 +24,21 @@ struct State {
 
 struct InUse {
     shader: Shader,
-    /// The text in force.
+    /// The text in use.
     text: String,
 }
 
 impl ShaderLibrary {
-    /// Reads shaders from the files in `folder` from now on; those in use follow at the next [`Self::reload`].
+    /// Reads shaders from the files in `folder` from now on. Those already in use are read at the next
+    /// [`Self::reload`].
     pub fn read_from(&self, folder: PathBuf) {
         self.state().folder = Some(folder);
     }
 
-    /// The text in force of a shader, which counts as in use from now on.
+    /// Returns the text of a shader, and registers the shader as in use.
     ///
-    /// That is the built-in text if there is no folder, or if the files there are missing or no valid module; the log says
-    /// why.
+    /// This is the built-in text if there is no folder, or if the files there are missing or invalid; the log has the
+    /// reason.
     pub(super) fn text_of(&self, shader: Shader) -> String {
         let mut state = self.state();
         if let Some(known) = state.in_use.iter().find(|known| known.shader.is(&shader)) {
@@ -57,11 +57,11 @@ impl ShaderLibrary {
         text
     }
 
-    /// Reads the files of all shaders in use again. Returns true if a text has changed: pipelines made before are those of
+    /// Reads the files of all shaders in use again. Returns true if a text has changed; existing pipelines still use
     /// the old text.
     ///
     /// # Errors
-    /// Returns the message of the first file that is missing or not valid; all texts stay as they were.
+    /// Returns the message of the first file that is missing or invalid; all texts then stay unchanged.
     pub fn reload(&self) -> Result<bool, String> {
         let mut state = self.state();
         let Some(folder) = state.folder.clone() else { return Ok(false) };
@@ -74,13 +74,13 @@ impl ShaderLibrary {
         Ok(has_changed)
     }
 
-    /// The lock holds no state that a panic could leave half done.
+    /// Returns the locked state. Its lock can be used after a panic, because no panic leaves the state half changed.
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// The valid text of a shader whose files lie in `folder`.
+/// Returns the valid text of a shader whose files lie in `folder`.
 fn read(folder: &Path, shader: Shader) -> Result<String, String> {
     let read_part = |&(file, _): &(&'static str, &str)| {
         let text = std::fs::read_to_string(folder.join(file)).map_err(|error| format!("{file}: {error}"))?;
@@ -103,7 +103,7 @@ mod tests {
         Shader { name: "test", parts: &[("a.wgsl", "const A: f32 = 1.0;\n"), ("b.wgsl", "const B: f32 = A;\n")] };
     const OTHER: Shader = Shader { name: "other", parts: &[("a.wgsl", "const A: f32 = 1.0;\n")] };
 
-    /// A library that reads from a folder with the files of [`SHADER`], and a function that writes one of them.
+    /// Returns a library that reads from a folder with the files of [`SHADER`], and that folder.
     fn library() -> (ShaderLibrary, tempfile::TempDir) {
         let folder = tempfile::tempdir().expect("a folder");
         for (file, text) in SHADER.parts {

@@ -4,7 +4,7 @@ use super::Gpu;
 use super::shader::Shader;
 
 impl Shader {
-    /// Compiles the text in force, and enters the shader among those in use on the device.
+    /// Compiles the current text of the shader, and registers the shader as in use on the device.
     #[must_use]
     pub fn module(&self, gpu: &Gpu) -> wgpu::ShaderModule {
         gpu.device.create_shader_module(wgpu::ShaderModuleDescriptor {

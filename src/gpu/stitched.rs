@@ -1,20 +1,20 @@
-//! One WGSL module laid together from files, and naga's errors with the file and line that they are about.
+//! A WGSL module concatenated from files, and naga's errors with the file and line to which they refer.
 //!
-//! naga reads one text, so its places are offsets into the whole. [`Stitched::check`] maps each back to the file that
-//! the text came from.
+//! naga reads one text, so its locations are offsets into the whole. [`Stitched::check`] maps each location back to the
+//! file from which the text came.
 
 use std::error::Error;
 
 use naga::{SourceLocation, Span};
 
-/// WGSL files laid end to end.
+/// Concatenated WGSL files.
 pub(super) struct Stitched<'a> {
-    /// (file name below the folder of shaders, text), in order.
+    /// Pairs of file name below the folder of shaders and text, in order.
     pub parts: Vec<(&'a str, String)>,
 }
 
 impl Stitched<'_> {
-    /// The whole text; a line break separates the files.
+    /// Returns the whole text, with a line break between the files.
     pub fn text(&self) -> String {
         self.parts.iter().map(|(_, text)| text.as_str()).collect::<Vec<_>>().join("\n")
     }
@@ -22,8 +22,8 @@ impl Stitched<'_> {
     /// Parses and validates the module.
     ///
     /// # Errors
-    /// Returns naga's message if the text is no valid module: `FILE:LINE:COLUMN: MESSAGE`, and below it the line with the
-    /// place marked.
+    /// Returns naga's message if the module is invalid: `FILE:LINE:COLUMN: MESSAGE`, and below it the line with the
+    /// location marked.
     pub fn check(&self) -> Result<(), String> {
         let text = self.text();
         let module = naga::front::wgsl::parse_str(&text).map_err(|error| {
@@ -55,11 +55,11 @@ impl Stitched<'_> {
         message.trim_end().to_owned()
     }
 
-    /// File and line, from 1, of a line of the whole text, from 1.
+    /// Maps a line of the whole text to its file and its line there; lines count from 1.
     fn locate(&self, line: u32) -> (&str, u32) {
         let mut rest = line;
         for (file, text) in &self.parts {
-            // The separator ends the last line of the part, which is empty where the file ends in a line break.
+            // The separator ends the last line of the part. That line is empty if the file ends in a line break.
             let num_lines = 1 + text.matches('\n').count() as u32;
             if rest <= num_lines {
                 return (file, rest);
@@ -70,7 +70,7 @@ impl Stitched<'_> {
     }
 }
 
-/// An error and what caused it, innermost last.
+/// Returns the messages of an error and of its causes, the innermost last.
 fn with_causes(error: &(dyn Error + 'static)) -> String {
     let causes = std::iter::successors(Some(error), |&error| error.source());
     causes.map(ToString::to_string).collect::<Vec<_>>().join(": ")

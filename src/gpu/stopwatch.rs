@@ -1,4 +1,4 @@
-//! The time of each pass, by timestamps of the device, or by the processor's clock if the device has none.
+//! Measures the time of each pass: by timestamps of the device, or by the processor's clock if the device has none.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -6,33 +6,35 @@ use std::time::{Duration, Instant};
 use super::readback::read_buffer;
 use super::{Gpu, GpuError};
 
-/// Most timestamps of one picture; passes beyond them are not timed.
+/// Largest number of timestamps of one picture; passes beyond them are not timed.
 const MAX_MARKS: u32 = 4096;
-/// Features that timestamps between passes need.
+/// Device features that timestamps between passes require.
 const NEEDED: wgpu::Features = wgpu::Features::TIMESTAMP_QUERY.union(wgpu::Features::TIMESTAMP_QUERY_INSIDE_ENCODERS);
 
-/// How long passes took, in the order in which each name first came; the times of passes of the same name are added up.
+/// Durations of passes, in the order in which each name first occurs. The times of passes of the same name are added
+/// up.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Laps {
     /// Names and milliseconds.
     pub passes: Vec<(&'static str, f32)>,
-    /// True if the device measured the passes; false if it cannot, and `passes` holds the time round the submission alone.
+    /// True if the device measured the passes. False if it cannot: then `passes` has one entry for all of them,
+    /// measured by the processor's clock.
     pub is_of_device: bool,
 }
 
-/// Measures the passes of one picture after the other.
+/// Measures the passes of pictures, one picture at a time.
 pub struct Stopwatch {
-    /// Timestamps and the buffer that they are read from; `None` if the device has none.
+    /// Timestamps, and the buffer from which they are read; `None` if the device has no timestamps.
     device: Option<(wgpu::QuerySet, wgpu::Buffer)>,
     record: Mutex<Record>,
 }
 
-/// What is known of a picture before the device has drawn it.
+/// Record of a picture before the device has drawn it.
 #[derive(Default)]
 struct Record {
-    /// Names of the passes that end at each timestamp but the first.
+    /// Name of the pass that ends at each timestamp except the first.
     names: Vec<&'static str>,
-    /// Work of the processor for the picture.
+    /// Passes and time that the processor worked for them.
     work: Vec<(&'static str, Duration)>,
     begun: Option<Instant>,
 }
@@ -47,7 +49,7 @@ impl Laps {
 }
 
 impl Stopwatch {
-    /// A stopwatch for pictures that `gpu` draws.
+    /// Returns a stopwatch for pictures that `gpu` draws.
     #[must_use]
     pub fn new(gpu: &Gpu) -> Self {
         let marks = || {
@@ -75,7 +77,7 @@ impl Stopwatch {
         }
     }
 
-    /// Ends a lap: what was recorded since the last one is called `name`.
+    /// Ends a lap: the commands recorded since the last call are the pass `name`.
     pub fn lap(&self, encoder: &mut wgpu::CommandEncoder, name: &'static str) {
         let Some((queries, _)) = &self.device else { return };
         let names = &mut self.record().names;
@@ -85,7 +87,7 @@ impl Stopwatch {
         }
     }
 
-    /// Enters time that the processor worked for a pass.
+    /// Records time that the processor worked for a pass.
     pub fn work(&self, name: &'static str, time: Duration) {
         self.record().work.push((name, time));
     }
@@ -121,7 +123,7 @@ impl Stopwatch {
         Ok(laps)
     }
 
-    /// The lock holds no state that a panic could leave half done.
+    /// Returns the locked record. Its lock can be used after a panic, because no panic leaves the record half changed.
     fn record(&self) -> MutexGuard<'_, Record> {
         self.record.lock().unwrap_or_else(PoisonError::into_inner)
     }

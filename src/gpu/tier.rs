@@ -1,19 +1,20 @@
-//! What kind of machine draws: decided once, when the device is made.
+//! The kind of device that draws, determined when the device is created.
 
-/// What kind of machine draws.
+/// The kind of device that draws.
 ///
-/// It chooses between ways to the same picture or the same bake: the viewer draws movement with fewer samples
-/// (`viewer::software`), and a bake prefers rays to item buffers (`bake::method`). Nothing else asks for the adapter's type.
+/// It selects the method, not the result: the viewer draws moving views with fewer samples (`viewer::software`), and a
+/// bake prefers rays to item buffers (`bake::method`). No other code depends on the type of the adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tier {
-    /// A graphics card, also an integrated or a virtual one.
+    /// A graphics card, including integrated and virtual ones.
     Hardware,
-    /// A driver that draws on the processor, such as Mesa's lavapipe: each pixel costs time of the cores that also trace rays.
+    /// A driver that draws on the processor, such as Mesa's lavapipe. Drawing then competes with ray tracing for the
+    /// cores.
     Software,
 }
 
 impl Tier {
-    /// The tier of an adapter.
+    /// Returns the tier of an adapter.
     #[must_use]
     pub fn of(adapter: &wgpu::AdapterInfo) -> Self {
         match adapter.device_type {
@@ -22,7 +23,7 @@ impl Tier {
         }
     }
 
-    /// The processor draws.
+    /// Returns true if the processor draws.
     #[must_use]
     pub fn is_software(self) -> bool {
         self == Tier::Software

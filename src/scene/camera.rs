@@ -33,7 +33,7 @@ pub enum Projection {
 }
 
 impl Camera {
-    /// A perspective camera at `position` that looks at `target`, +Y up.
+    /// Returns a perspective camera at `position` that looks at `target`, +Y up.
     #[must_use]
     pub fn looking_at(name: &str, position: Vec3, target: Vec3, fov_y: f32) -> Self {
         let view_from_world = glam::camera::rh::view::look_at_mat4(position, target, Vec3::Y);
@@ -45,7 +45,7 @@ impl Camera {
         }
     }
 
-    /// A camera above one corner of the box that sees all of it; the default for scenes without a camera.
+    /// Returns a camera above one corner of the box that sees all of it; the default for scenes without a camera.
     #[must_use]
     pub fn framing(bounds: Bounds) -> Self {
         let fov_y = 45f32.to_radians();
@@ -57,13 +57,13 @@ impl Camera {
         Self::looking_at("overview", centre + distance * direction, centre, fov_y)
     }
 
-    /// Matrix from world space to view space.
+    /// Returns the matrix from world space to view space.
     #[must_use]
     pub fn view_from_world(&self) -> Mat4 {
         Mat4::from_rotation_translation(self.world_from_view, self.position).inverse()
     }
 
-    /// Unit vector in which the camera looks, in world space.
+    /// Returns the unit vector in which the camera looks, in world space.
     #[must_use]
     pub fn forward(&self) -> Vec3 {
         self.world_from_view * Vec3::NEG_Z

@@ -1,4 +1,4 @@
-//! Order of triangles in compact chunks of fixed size, which are culled as a whole.
+//! Sorts triangles into compact chunks of fixed size, which are culled as a whole.
 //!
 //! Source: MacDonald and Booth 1990, "Heuristics for Ray Tracing Using Space Subdivision" (the surface area heuristic).
 
@@ -11,8 +11,8 @@ use crate::base::ids::TriangleId;
 /// Triangles per chunk.
 pub const CHUNK: usize = 64;
 
-/// Spatial order of some triangles: each run of [`CHUNK`] triangles is a compact chunk, and neighbouring chunks are
-/// near each other.
+/// Returns a spatial order of triangles: each run of [`CHUNK`] triangles is a compact chunk, and neighbouring chunks
+/// are near each other.
 pub fn spatial_order(
     corners: impl Fn(TriangleId) -> [Vec3; 3],
     triangles: impl Iterator<Item = TriangleId>,
@@ -27,7 +27,7 @@ pub fn spatial_order(
     triangles.into_iter().map(|triangle| triangle.id).collect()
 }
 
-/// Bounds of the chunks of triangles in this order.
+/// Returns the bounds of the chunks of triangles in this order.
 pub fn chunk_bounds(corners: impl Fn(TriangleId) -> [Vec3; 3], order: &[TriangleId]) -> Vec<Bounds> {
     order.chunks(CHUNK).map(|chunk| Bounds::of(chunk.iter().flat_map(|&t| corners(t)))).collect()
 }
@@ -39,8 +39,8 @@ struct Placed {
     centroid: Vec3,
 }
 
-/// Splits the triangles in two at a multiple of [`CHUNK`] with the least cost of the surface area heuristic, and then
-/// each part.
+/// Splits the triangles recursively in two, each time at the multiple of [`CHUNK`] with the least cost by the surface
+/// area heuristic.
 fn sort(triangles: &mut [Placed]) {
     if triangles.len() <= CHUNK {
         return;
@@ -64,7 +64,7 @@ fn sort_along(triangles: &mut [Placed], axis: usize) {
     triangles.par_sort_unstable_by(|a, b| a.centroid[axis].total_cmp(&b.centroid[axis]).then(a.id.cmp(&b.id)));
 }
 
-/// Cost of a split after each chunk but the last: sum over both sides of surface area x number of chunks.
+/// Returns the cost of a split after each chunk but the last: sum over both sides of surface area x number of chunks.
 fn costs(triangles: &[Placed]) -> Vec<f32> {
     let chunks: Vec<Bounds> =
         triangles.chunks(CHUNK).map(|chunk| chunk.iter().fold(Bounds::EMPTY, |sum, t| sum.joined(t.bounds))).collect();

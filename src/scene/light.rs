@@ -1,7 +1,7 @@
 //! Punctual lights (KHR_lights_punctual) and the irradiance that arrives from them.
 //!
-//! A punctual light has no area, so it is no patch of the radiosity system: its direct irradiance is computed at the
-//! receivers, and radiosity carries the reflected light on.
+//! A punctual light has no area, so it is no patch of the radiosity system. Its direct irradiance is computed at the
+//! receivers; radiosity then distributes the reflected light.
 
 use glam::Vec3;
 
@@ -22,7 +22,7 @@ pub struct Light {
     pub range: Option<f32>,
     /// Directional distribution of a point light's intensity; `None` for the same intensity in all directions.
     pub profile: Option<Profile>,
-    /// The light group with which it is dimmed.
+    /// The light group in which it is dimmed.
     pub group: GroupId,
 }
 
@@ -64,21 +64,21 @@ pub struct Arrival {
 }
 
 impl Light {
-    /// A light without name, range limit and profile, in light group 0; `intensity` in candela, for a directional one
-    /// in lux.
+    /// Returns a light without name, range limit and profile, in light group 0; `intensity` in candela, for a
+    /// directional one in lux.
     #[must_use]
     pub fn new(kind: LightKind, intensity: Vec3) -> Self {
         Self { name: String::new(), kind, intensity, range: None, profile: None, group: GroupId(0) }
     }
 
-    /// A point light of `intensity` candela per channel.
+    /// Returns a point light of `intensity` candela per channel.
     #[must_use]
     pub fn point(position: Vec3, intensity: Vec3) -> Self {
         Self::new(LightKind::Point { position }, intensity)
     }
 
-    /// A spot light of `intensity` candela per channel along the unit vector `direction`, with the half angles at which
-    /// the falloff begins and at which the cone ends, radians.
+    /// Returns a spot light of `intensity` candela per channel along the unit vector `direction`, with the half angles
+    /// at which the falloff begins and at which the cone ends, radians.
     #[must_use]
     pub fn spot(position: Vec3, direction: Vec3, [inner_angle, outer_angle]: [f32; 2], intensity: Vec3) -> Self {
         Self::new(LightKind::Spot { position, direction, inner_angle, outer_angle }, intensity)
@@ -91,7 +91,7 @@ impl Light {
         Self::new(LightKind::Directional { direction }, illuminance)
     }
 
-    /// Light that arrives at `point` if no surface blocks it, before the cosine of the receiver.
+    /// Returns the light that arrives at `point` if no surface blocks it, before the cosine of the receiver.
     ///
     /// E = I / r^2 x a x w, where a is the attenuation by the spot's cone, or the relative intensity of the photometric
     /// profile, and w = clamp(1 - (r / range)^4, 0, 1) brings the light to zero at its range.

@@ -8,7 +8,7 @@ use crate::base::ids::GroupId;
 /// Largest reflectance in light transport. Brighter materials are clamped, and the loader notes it.
 pub const MAX_REFLECTANCE: f32 = 0.99;
 
-/// A glTF material, as far as it matters for light.
+/// The properties of a glTF material that affect light.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// Name in the file.
@@ -33,9 +33,9 @@ pub struct Material {
     pub group: Option<GroupId>,
     /// Meaning of alpha.
     pub alpha_mode: AlphaMode,
-    /// Both faces reflect and emit.
+    /// True if both faces reflect and emit.
     pub double_sided: bool,
-    /// KHR_materials_unlit: the surface blocks light and reflects none.
+    /// True for KHR_materials_unlit: the surface blocks light and reflects none.
     pub unlit: bool,
     /// Share of the light that is transmitted (KHR_materials_transmission); used by ray tracing only.
     pub transmission: f32,
@@ -53,7 +53,7 @@ pub enum AlphaMode {
         /// Smallest alpha that is solid.
         cutoff: f32,
     },
-    /// The share 1 - alpha of the light passes.
+    /// The share 1 - alpha of the light passes through.
     Blend,
 }
 
@@ -85,7 +85,7 @@ impl Default for Material {
 pub struct SurfacePoint {
     /// Diffuse reflectance per channel, at most [`MAX_REFLECTANCE`].
     pub reflectance: Vec3,
-    /// Specular reflectance of the metal at normal incidence (base colour x metallic); no part of radiosity.
+    /// Specular reflectance of the metal at normal incidence (base colour x metallic); not used by radiosity.
     pub metal: Vec3,
     /// 0 mirror .. 1 rough.
     pub roughness: f32,
@@ -98,19 +98,19 @@ pub struct SurfacePoint {
 }
 
 impl Material {
-    /// A matt material of the given linear reflectance.
+    /// Returns a matt material of the given linear reflectance.
     #[must_use]
     pub fn diffuse(reflectance: Vec3) -> Self {
         Self { base_colour: reflectance.extend(1.0), metallic: 0.0, ..Self::default() }
     }
 
-    /// Whether the material emits light.
+    /// Returns true if the material emits light.
     #[must_use]
     pub fn is_emissive(&self) -> bool {
         self.emission.max_element() > 0.0
     }
 
-    /// Optical properties at a point with texture coordinates `uv` and vertex colour `colour`.
+    /// Returns the optical properties at a point with texture coordinates `uv` and vertex colour `colour`.
     ///
     /// Diffuse reflectance rho = base colour x (1 - metallic), clamped to [`MAX_REFLECTANCE`]; base colour = factor x
     /// texture x vertex colour, linear.

@@ -1,8 +1,8 @@
 //! Floor 1: the scene: triangles in world space, materials, lights, cameras.
 //!
 //! A [`Scene`] comes from a file ([`gltf::load`]), from [`builtin`], or from code ([`SceneBuilder`]). The loader
-//! validates it: all numbers are finite and all indices in range, so no later stage checks again. The node tree is
-//! applied on loading and kept only so that a bake can write it. Nothing here uses the GPU.
+//! validates it: all numbers are finite and all indices in range, so no later stage checks again. Node transforms are
+//! applied on loading; the node tree is stored only for bakes, which write it. Nothing here uses the GPU.
 
 pub mod builtin;
 pub mod camera;

@@ -21,9 +21,9 @@ pub struct Scene {
     pub name: String,
     /// Vertices `[v]`, as the file splits them (at seams of normals and texture coordinates).
     pub vertices: Vec<Vertex>,
-    /// Triangles `[t]`, those of one instance side by side.
+    /// Triangles `[t]`; those of one instance are consecutive.
     pub triangles: Vec<Triangle>,
-    /// The triangles that are backs of others; only baked scenes have any.
+    /// Pairs of front and back triangles; only baked scenes have any.
     pub sides: Sides,
     /// Placed primitives `[i]`.
     pub instances: Vec<Instance>,
@@ -31,7 +31,7 @@ pub struct Scene {
     pub nodes: Vec<NamedNode>,
     /// Materials `[m]`.
     pub materials: Vec<Material>,
-    /// Textures that material slots name.
+    /// Textures to which materials refer.
     pub textures: Vec<Texture>,
     /// Punctual lights.
     pub lights: Vec<Light>,
@@ -77,24 +77,24 @@ pub struct ElementRecord {
     pub version: u64,
     /// Bisection trees of the triangles, as text; `None` if the record has none.
     pub trees: Option<String>,
-    /// The triangles are the backs of those of the instance this many before theirs; `None` if they are no backs.
+    /// Number of instances from that of the fronts to this one, if the triangles are backs; `None` if they are not.
     pub back_of: Option<usize>,
 }
 
 impl Scene {
-    /// Corner positions of a triangle, metres.
+    /// Returns the corner positions of a triangle, metres.
     #[must_use]
     pub fn corners(&self, triangle: TriangleId) -> [Vec3; 3] {
         self.triangles[triangle.index()].vertices.map(|v| self.vertices[v as usize].position)
     }
 
-    /// Material of a triangle.
+    /// Returns the material of a triangle.
     #[must_use]
     pub fn material_of(&self, triangle: TriangleId) -> &Material {
         &self.materials[self.triangles[triangle.index()].material.index()]
     }
 
-    /// Optical properties of the surface at the point of a triangle with barycentric coordinates `weights`.
+    /// Returns the optical properties of the surface at the point of a triangle with barycentric coordinates `weights`.
     #[must_use]
     pub fn surface_at(&self, triangle: TriangleId, weights: Vec3) -> SurfacePoint {
         let corners = self.triangles[triangle.index()].vertices.map(|v| &self.vertices[v as usize]);
@@ -102,20 +102,20 @@ impl Scene {
         self.material_of(triangle).at(&self.textures, uv, colour)
     }
 
-    /// Smallest box that holds all vertices; the unit cube if there are none.
+    /// Returns the smallest box that holds all vertices; the unit cube if there are none.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         let positions = self.vertices.iter().map(|vertex| vertex.position);
         Bounds::around(positions).unwrap_or(Bounds { low: Vec3::ZERO, high: Vec3::ONE })
     }
 
-    /// The triangles that are not backs, so that every surface occurs once.
+    /// Returns the triangles that are not backs, so that every surface occurs once.
     pub fn fronts(&self) -> impl Iterator<Item = TriangleId> + '_ {
         (0..self.triangles.len()).map(TriangleId::new).filter(|&triangle| !self.sides.is_back(triangle))
     }
 
-    /// The triangle that stores the light of the front or back side of `front`, and the barycentric coordinates in it
-    /// of the point with `weights` in the front.
+    /// Returns the triangle that stores the light of the front or back side of `front`, and the barycentric coordinates
+    /// in it of the point with `weights` in the front.
     #[must_use]
     pub fn on_side(&self, front: TriangleId, weights: Vec3, is_front: bool) -> (TriangleId, Vec3) {
         match self.sides.back_of(front) {
@@ -124,7 +124,7 @@ impl Scene {
         }
     }
 
-    /// Sum of all triangle areas, square metres.
+    /// Returns the sum of all triangle areas, square metres.
     #[must_use]
     pub fn area(&self) -> f64 {
         (0..self.triangles.len()).map(|t| f64::from(area_of(self.corners(TriangleId::new(t))))).sum()

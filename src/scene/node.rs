@@ -1,4 +1,4 @@
-//! The node tree of a file. Its transforms are applied on loading; a bake writes the tree for programs that move nodes.
+//! The node tree of a file. Its transforms are applied on loading. A bake writes the tree for programs that move nodes.
 
 use std::ops::Range;
 
@@ -28,7 +28,7 @@ pub enum Transform {
     Matrix([f32; 16]),
     /// Translation x rotation x scale, which animations can change.
     Parts {
-        /// Metres.
+        /// Translation, metres.
         translation: [f32; 3],
         /// Unit quaternion x, y, z, w.
         rotation: [f32; 4],
@@ -44,13 +44,13 @@ impl Default for Transform {
 }
 
 impl Transform {
-    /// The matrix of a transform, rounded to single precision as in a file.
+    /// Returns the matrix of a transform, rounded to single precision as in a file.
     #[must_use]
     pub fn from_affine(parent_from_node: DAffine3) -> Self {
         Self::Matrix(DMat4::from(parent_from_node).to_cols_array().map(|x| x as f32))
     }
 
-    /// Transform from node space to the space of the parent.
+    /// Returns the transform from node space to the space of the parent.
     #[must_use]
     pub fn parent_from_node(&self) -> DAffine3 {
         match *self {

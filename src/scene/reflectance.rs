@@ -6,11 +6,11 @@ use super::material::Material;
 use super::model::Scene;
 use super::texture::Texture;
 
-/// Most samples of the mean of a texture.
+/// Largest number of samples for the mean of a texture.
 const MEAN_PIXELS: usize = 1 << 16;
 
-/// Mean reflectance of each material in its brightest channel `[m]`: factors times the means of textures, without
-/// vertex colours.
+/// Returns the mean reflectance of each material in its brightest channel `[m]`: factors times the means of textures,
+/// without vertex colours.
 pub(crate) fn mean_reflectances(scene: &Scene) -> Vec<f32> {
     let colour_means: Vec<_> = scene.textures.iter().map(|texture| mean(texture, Texture::sample_srgb)).collect();
     let data_means: Vec<_> = scene.textures.iter().map(|texture| mean(texture, Texture::sample_linear)).collect();
@@ -23,7 +23,7 @@ pub(crate) fn mean_reflectances(scene: &Scene) -> Vec<f32> {
     scene.materials.iter().map(reflectance).collect()
 }
 
-/// Mean of a texture over a regular grid of samples.
+/// Returns the mean of a texture over a regular grid of samples.
 fn mean(texture: &Texture, sample: impl Fn(&Texture, glam::Vec2) -> glam::Vec4) -> Vec3 {
     let (width, height) = (texture.image.width as usize, texture.image.height as usize);
     let step = (1..).find(|step| (width / step).max(1) * (height / step).max(1) <= MEAN_PIXELS).unwrap_or(1);

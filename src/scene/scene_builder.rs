@@ -32,7 +32,7 @@ pub struct SceneBuilder {
 }
 
 impl SceneBuilder {
-    /// An empty scene of this name.
+    /// Returns an empty scene of this name.
     #[must_use]
     pub fn new(name: &str) -> Self {
         Self { scene: Scene { name: name.to_owned(), ..Scene::default() } }
@@ -44,7 +44,7 @@ impl SceneBuilder {
         MaterialId::new(self.scene.materials.len() - 1)
     }
 
-    /// The light group of this name, which is added if the scene has none.
+    /// Returns the light group of this name. Adds it if the scene has none of this name.
     pub fn group(&mut self, name: &str) -> GroupId {
         let groups = &mut self.scene.light_groups;
         let index = groups.iter().position(|group| group == name).unwrap_or_else(|| {
@@ -54,7 +54,7 @@ impl SceneBuilder {
         GroupId::new(index)
     }
 
-    /// Adds a light; its group is one of [`Self::group`].
+    /// Adds a light, whose group must come from [`Self::group`].
     pub fn light(&mut self, light: Light) -> &mut Self {
         self.scene.lights.push(light);
         self
@@ -131,7 +131,7 @@ impl SceneBuilder {
         self
     }
 
-    /// The finished scene.
+    /// Returns the finished scene.
     #[must_use]
     pub fn build(self) -> Scene {
         self.scene

@@ -1,8 +1,8 @@
 //! Pairs of front and back triangles of double-sided surfaces.
 //!
 //! A double-sided triangle of a file is one triangle, which rays and shadows hit from both sides. A bake stores light
-//! on each side, so it writes the back as a triangle of its own, over vertices with flipped normals and in the opposite
-//! winding. Rays, shadow casters and collision must hit the surface once, so they use only the fronts.
+//! on each side, so it writes the back as a separate triangle with flipped normals and the opposite winding. Rays,
+//! shadow casters and collision must hit a surface only once, so they use only the fronts.
 
 use glam::Vec3;
 
@@ -11,7 +11,7 @@ use crate::base::ids::TriangleId;
 /// The triangles of a scene that are backs of others.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sides {
-    /// Whether a triangle is a back `[t]`; triangles beyond the end are fronts.
+    /// True if a triangle is a back `[t]`; triangles beyond the end are fronts.
     is_back: Vec<bool>,
     /// Fronts with their backs, sorted by front.
     pairs: Vec<(TriangleId, Back)>,
@@ -20,7 +20,7 @@ pub struct Sides {
 /// The back of a front triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Back {
-    /// The triangle.
+    /// The back triangle.
     pub triangle: TriangleId,
     /// Corner of the front at which the first corner of the back lies. The others follow the opposite way: corner `i`
     /// of the back lies at corner `first - i` (modulo 3) of the front.
@@ -28,13 +28,13 @@ pub struct Back {
 }
 
 impl Back {
-    /// The back with corners `[a, c, b]` of a front with corners `[a, b, c]`.
+    /// Returns the back with corners `[a, c, b]` of a front with corners `[a, b, c]`.
     #[must_use]
     pub fn flipped(triangle: TriangleId) -> Self {
         Self { triangle, first: 0 }
     }
 
-    /// Barycentric coordinates on the back of the point with these barycentric coordinates on the front.
+    /// Returns the barycentric coordinates on the back of the point with these barycentric coordinates on the front.
     #[must_use]
     pub fn weights(&self, on_front: Vec3) -> Vec3 {
         Vec3::from_array(std::array::from_fn(|i| on_front[(self.first + 3 - i) % 3]))
@@ -58,26 +58,26 @@ impl Sides {
         self.pairs.sort_unstable_by_key(|(front, _)| *front);
     }
 
-    /// Whether the triangle is the back of a double-sided surface.
+    /// Returns true if the triangle is the back of a double-sided surface.
     #[must_use]
     pub fn is_back(&self, triangle: TriangleId) -> bool {
         self.is_back.get(triangle.index()).is_some_and(|&is_back| is_back)
     }
 
-    /// Whether the scene has any back.
+    /// Returns true if the scene has any back.
     #[must_use]
     pub fn has_backs(&self) -> bool {
         self.is_back.contains(&true)
     }
 
-    /// The back of a front triangle; `None` if it has no known back.
+    /// Returns the back of a front triangle; `None` if it has no known back.
     #[must_use]
     pub fn back_of(&self, front: TriangleId) -> Option<Back> {
         let found = self.pairs.binary_search_by_key(&front, |(front, _)| *front).ok()?;
         Some(self.pairs[found].1)
     }
 
-    /// Number of backs of unknown fronts.
+    /// Returns the number of backs of unknown fronts.
     #[must_use]
     pub fn num_unpaired(&self) -> usize {
         self.is_back.iter().filter(|&&is_back| is_back).count() - self.pairs.len()

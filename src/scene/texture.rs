@@ -17,7 +17,7 @@ pub struct TextureSlot {
 }
 
 impl TextureSlot {
-    /// Transformed texture coordinate, given both coordinate sets.
+    /// Returns the transformed texture coordinate, given both coordinate sets of a vertex.
     #[must_use]
     pub fn coordinate(&self, uv: [Vec2; 2]) -> Vec2 {
         self.transform.transform_point2(uv[self.uv_set])
@@ -29,7 +29,7 @@ impl TextureSlot {
 pub struct Texture {
     /// Pixels.
     pub image: std::sync::Arc<Image>,
-    /// Wrapping outside 0..1 and interpolation between pixels.
+    /// Wrapping of coordinates outside 0..1, and interpolation between pixels.
     pub sampler: Sampler,
 }
 
@@ -38,9 +38,9 @@ pub struct Texture {
 pub struct Image {
     /// Name in the file.
     pub name: String,
-    /// Pixels across.
+    /// Width, pixels.
     pub width: u32,
-    /// Pixels down.
+    /// Height, pixels.
     pub height: u32,
     /// RGBA bytes as stored (sRGB for colours), row by row from the top.
     pub rgba: Vec<u8>,
@@ -57,7 +57,7 @@ pub struct Sampler {
     pub wrap_u: Wrap,
     /// Wrapping along v.
     pub wrap_v: Wrap,
-    /// Nearest instead of linear magnification.
+    /// True for nearest instead of linear magnification.
     pub nearest: bool,
 }
 
@@ -87,8 +87,8 @@ impl Wrap {
 }
 
 impl Texture {
-    /// Bilinear sample of an sRGB colour texture: linear colour and alpha. The origin is the top left corner, as in
-    /// glTF.
+    /// Samples an sRGB colour texture bilinearly; returns linear colour and alpha. The origin is the top left corner,
+    /// as in glTF.
     #[must_use]
     pub fn sample_srgb(&self, uv: Vec2) -> Vec4 {
         static LINEAR: std::sync::LazyLock<[f32; 256]> = std::sync::LazyLock::new(srgb_byte_table);
@@ -97,7 +97,7 @@ impl Texture {
         })
     }
 
-    /// Bilinear sample of a texture with linear data.
+    /// Samples a texture with linear data bilinearly.
     #[must_use]
     pub fn sample_linear(&self, uv: Vec2) -> Vec4 {
         self.sample(uv, |rgba| Vec4::from(rgba.map(f32::from)) / 255.0)

@@ -8,24 +8,25 @@ use crate::base::triangle::interpolate;
 /// A vertex in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Vertex {
-    /// Metres.
+    /// Position, metres.
     pub position: Vec3,
     /// Unit shading normal.
     pub normal: Vec3,
     /// Texture coordinate sets 0 and 1; (0, 0) if the file has none.
     pub uv: [Vec2; 2],
-    /// Linear COLOR_0; white if the file has none.
+    /// Linear vertex colour COLOR_0; white if the file has none.
     pub colour: Vec4,
 }
 
 impl Vertex {
-    /// A white vertex without texture coordinates.
+    /// Returns a white vertex without texture coordinates.
     #[must_use]
     pub fn new(position: Vec3, normal: Vec3) -> Self {
         Self { position, normal, uv: [Vec2::ZERO; 2], colour: Vec4::ONE }
     }
 
-    /// Texture coordinate sets and colour at the point of a triangle with barycentric coordinates `weights`.
+    /// Returns the texture coordinate sets and colour at the point of a triangle with barycentric coordinates
+    /// `weights`.
     #[must_use]
     pub fn uv_and_colour_at([a, b, c]: [&Self; 3], weights: Vec3) -> ([Vec2; 2], Vec4) {
         let uv = [0, 1].map(|set| interpolate([a.uv[set], b.uv[set], c.uv[set]], weights));
@@ -44,28 +45,28 @@ pub struct Triangle {
     pub instance: InstanceId,
 }
 
-/// Cross product of two edges: it points along the front normal and is twice the area long.
+/// Returns the cross product of two edges: it points along the front normal, and its length is twice the area.
 #[must_use]
 pub fn edge_cross(corners: [Vec3; 3]) -> Vec3 {
     (corners[1] - corners[0]).cross(corners[2] - corners[0])
 }
 
-/// Area of a triangle.
+/// Returns the area of a triangle.
 #[must_use]
 pub fn area_of(corners: [Vec3; 3]) -> f32 {
     0.5 * edge_cross(corners).length()
 }
 
-/// Unit normal of the front face; zero if the triangle is degenerate.
+/// Returns the unit normal of the front face; zero if the triangle is degenerate.
 #[must_use]
 pub fn normal_of(corners: [Vec3; 3]) -> Vec3 {
     edge_cross(corners).normalize_or_zero()
 }
 
-/// Whether the triangle has no usable area: its height is within rounding of its longest edge.
+/// Returns true if the triangle has no usable area: its height is within rounding of its longest edge.
 #[must_use]
 pub(crate) fn is_degenerate(corners: [Vec3; 3]) -> bool {
-    /// Smallest height that counts, as a share of the longest edge.
+    /// Height, as a share of the longest edge, below which a triangle is degenerate.
     const SHARE: f32 = 1e-7;
     let [a, b, c] = corners;
     let longest_squared = (b - a).length_squared().max((c - b).length_squared()).max((a - c).length_squared());
@@ -73,7 +74,7 @@ pub(crate) fn is_degenerate(corners: [Vec3; 3]) -> bool {
     area <= SHARE * longest_squared || normal_of(corners) == Vec3::ZERO
 }
 
-/// Whether a position is plausible: finite, and no coordinate beyond a million kilometres.
+/// Returns true if a position is plausible: finite, and no coordinate beyond a million kilometres.
 #[must_use]
 pub(crate) fn is_placeable(position: Vec3) -> bool {
     const LARGEST: f32 = 1e9;

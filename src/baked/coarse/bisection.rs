@@ -12,21 +12,22 @@ use crate::baked::bisection_trees::{BisectionTrees, Halving};
 use crate::base::ids::TriangleId;
 use crate::scene::{AlphaMode, Scene, Triangle};
 
-/// Distance of a vertex from the middle of an edge, relative to its length, that is rounding of transforms.
+/// Largest distance of a vertex from the middle of an edge that is due to rounding of transforms, relative to the
+/// length of the edge.
 const ROUNDING: f32 = 1e-5;
-/// Deviation of colours, which files may store in eight bits.
+/// Largest deviation of colours that is due to rounding: files may store colours in eight bits.
 const COLOUR_ROUNDING: f32 = 4e-3;
 /// Smallest cosine between the shading normals of a vertex and of the edge that it lies on.
 const SAME_NORMAL: f32 = 0.999;
 
-/// A triangle of the mesh, or one that two nodes make up.
+/// A triangle of the mesh, or the union of two nodes.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Node {
-    /// Vertices of the scene. If there are halves, the apex comes first.
+    /// Vertices in the scene. If the node has halves, the apex comes first.
     pub corners: [u32; 3],
-    /// The two nodes that make it up. `None` for a triangle of the mesh.
+    /// The two nodes of which it is the union. `None` for a triangle of the mesh.
     pub halves: Option<Halves>,
-    /// Number of triangles of the mesh that make it up.
+    /// Number of triangles of the mesh of which it consists.
     pub num_elements: u32,
 }
 
@@ -43,26 +44,26 @@ pub(super) struct Halves {
 pub(super) struct Forest {
     /// First the triangles of the mesh, in their order.
     pub nodes: Vec<Node>,
-    /// The node that each node is a half of. `None` for a root.
+    /// Parent of each node: the node of which it is a half. `None` for a root.
     pub parents: Vec<Option<u32>>,
 }
 
 impl Forest {
-    /// The trees of a scene: those that a bake keeps, if they fit, else those that its triangles suggest.
+    /// Returns the trees of a scene: those that the bake recorded, if they fit, else those guessed from its triangles.
     pub fn new(scene: &Scene, kept: Option<&BisectionTrees>) -> Self {
         kept.and_then(|trees| Self::of_trees(scene, trees)).unwrap_or_else(|| Self::guessed(scene))
     }
 
-    /// The triangles of the mesh, which no tree joins yet.
+    /// Returns the triangles of the mesh, which no tree joins yet.
     fn of_elements(scene: &Scene) -> Self {
         let leaf = |triangle: &Triangle| Node { corners: triangle.vertices, halves: None, num_elements: 1 };
         let nodes: Vec<Node> = scene.triangles.iter().map(leaf).collect();
         Self { parents: vec![None; nodes.len()], nodes }
     }
 
-    /// The trees that a bake keeps. `None` if they do not fit the triangles.
+    /// Returns the trees that a bake recorded. `None` if they do not fit the triangles.
     ///
-    /// Halves whose vertices have been moved apart since are left as they are.
+    /// Halves whose vertices have been moved apart since the bake are not joined.
     fn of_trees(scene: &Scene, trees: &BisectionTrees) -> Option<Self> {
         if trees.num_elements() != scene.triangles.len() {
             return None;
@@ -84,7 +85,7 @@ impl Forest {
         Some(forest)
     }
 
-    /// The largest trees that the order and the positions of the triangles suggest.
+    /// Returns the largest trees that agree with the order and the positions of the triangles.
     fn guessed(scene: &Scene) -> Self {
         let mut forest = Self::of_elements(scene);
         let surface = |t: usize| {
@@ -108,7 +109,7 @@ impl Forest {
         forest
     }
 
-    /// Adds the node that two others are the halves of and returns its number.
+    /// Adds the node whose halves are two other nodes, and returns its index.
     fn join(&mut self, halves: [u32; 2], corners: [u32; 3], middle: u32) -> u32 {
         let number = self.nodes.len() as u32;
         let num_elements = halves.iter().map(|&half| self.nodes[half as usize].num_elements).sum();
@@ -118,12 +119,12 @@ impl Forest {
         number
     }
 
-    /// Corners, apex first, of the triangle that two nodes are the halves of, and the vertex in the middle of its base.
-    /// `None` if they are not.
+    /// If two nodes are the halves of a triangle, returns the corners of that triangle, apex first, and the vertex in
+    /// the middle of its base. `None` otherwise.
     fn pair(&self, scene: &Scene, nodes: [u32; 2]) -> Option<([u32; 3], u32)> {
         let [first, second] = nodes.map(|node| &self.nodes[node as usize]);
         let (i, j) = (0..9).map(|k| (k / 3, k % 3)).find(|&(i, j)| {
-            // The same edge in the opposite direction.
+            // The shared edge has opposite directions in the two triangles.
             first.corners[i] == second.corners[(j + 1) % 3] && first.corners[(i + 1) % 3] == second.corners[j]
         })?;
         let (from, to) = (first.corners[i], first.corners[(i + 1) % 3]);
@@ -137,7 +138,7 @@ impl Forest {
         }
     }
 
-    /// The first of the triangles of the mesh that make up a node.
+    /// Returns the first triangle of the mesh that belongs to a node.
     pub fn some_element(&self, mut node: u32) -> u32 {
         while let Some(halves) = self.nodes[node as usize].halves {
             [node, _] = halves.nodes;
@@ -145,8 +146,8 @@ impl Forest {
         node
     }
 
-    /// Visits the triangles of the mesh that make up a node, with the grid positions of their corners. `places` are
-    /// those of the corners of the node.
+    /// Visits the triangles of the mesh of which a node consists, with the grid positions of their corners. `places`
+    /// are the grid positions of the corners of the node.
     pub fn visit(&self, node: u32, places: [IVec2; 3], visit: &mut impl FnMut(u32, [IVec2; 3])) {
         let Node { corners, halves, .. } = &self.nodes[node as usize];
         let Some(Halves { nodes, middle }) = *halves else {
@@ -163,13 +164,14 @@ impl Forest {
     }
 }
 
-/// Triangles that blend are drawn one by one in the order of the file, so no trees join them.
+/// Returns true if the material of a triangle blends. Such triangles are drawn one by one in the order of the file, so
+/// no trees join them.
 fn blends(scene: &Scene, triangle: TriangleId) -> bool {
     scene.material_of(triangle).alpha_mode == AlphaMode::Blend
 }
 
-/// Position, texture coordinates and colour of a vertex are the means of those of the ends of an edge, and its normal
-/// is near their mean normal.
+/// Returns true if the position, texture coordinates and colour of a vertex are the means of those at the ends of an
+/// edge, and its normal is near their mean normal.
 fn is_middle(scene: &Scene, vertex: u32, ends: [u32; 2]) -> bool {
     let middle = &scene.vertices[vertex as usize];
     let [a, b] = ends.map(|end| &scene.vertices[end as usize]);

@@ -10,9 +10,9 @@ use crate::scene::{Scene, Triangle};
 
 /// Largest width and height of the texture: 256 MiB of light.
 const MAX_SIDE: u32 = 5792;
-/// Most texels per element. More would give fewer triangles, but hardly faster pictures.
+/// Largest number of texels per element. More would give fewer triangles, but hardly faster pictures.
 const MAX_TEXELS_PER_ELEMENT: u64 = 32;
-/// Most coarse triangles per element; more are not worth a texture.
+/// Largest number of coarse triangles per element; more are not worth a texture.
 const WORTH_WHILE: f32 = 0.75;
 
 /// A mesh of fewer triangles over the vertices of a scene.
@@ -49,8 +49,8 @@ pub(crate) struct ElementTexels {
 }
 
 impl CoarseMesh {
-    /// The coarse mesh of a scene of elements, with their bisection trees if these are known. `None` if the mesh would
-    /// not be much smaller, or the texture would be wider or higher than `max_side`.
+    /// Returns the coarse mesh of a scene of elements, with their bisection trees if these are known. `None` if the
+    /// mesh would not be much smaller, or the texture would be wider or higher than `max_side`.
     pub fn new(scene: &Scene, trees: Option<&BisectionTrees>, max_side: u32) -> Option<Self> {
         let forest = Forest::new(scene, trees);
         let num_elements = scene.triangles.len();

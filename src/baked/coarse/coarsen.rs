@@ -31,7 +31,7 @@ pub(super) struct Whole {
     pub level: u32,
 }
 
-/// Number of texels of a tile: its grid and a margin of one texel.
+/// Returns the number of texels of a tile: its grid and a margin of one texel.
 pub(super) const fn num_texels(level: u32) -> u64 {
     ((1 << level) + 3) * ((1 << level) + 3)
 }
@@ -101,12 +101,12 @@ impl<'a> Coarsening<'a> {
         self.forest.nodes[node as usize].halves.expect("only triangles of the mesh have no halves")
     }
 
-    /// The place at which a node is halved.
+    /// Returns the place at which a node is halved.
     fn middle_of(&self, node: u32) -> u32 {
         self.place_of[self.halves(node).middle as usize]
     }
 
-    /// Bits of the length of the edge whose middle is a place; they are ordered as the lengths are.
+    /// Returns the bits of the length of the edge whose middle is a place; they are ordered as the lengths are.
     fn length_at(&self, place: u32) -> u32 {
         let node = self.halved[self.halved_at[place as usize].start as usize];
         let [_, from, to] = self.forest.nodes[node as usize].corners.map(|v| self.scene.vertices[v as usize].position);
@@ -138,7 +138,7 @@ impl<'a> Coarsening<'a> {
         nodes.into_iter().filter_map(|node| self.forest.parents[node as usize]).collect()
     }
 
-    /// The level of the grid of a node: the coarsest on which all corners of its elements lie.
+    /// Returns the level of the grid of a node: the coarsest on which all corners of its elements lie.
     fn level(&self, node: u32) -> u32 {
         let mut odd = 0;
         let corners = [IVec2::ZERO, IVec2::new(1 << FINEST, 0), IVec2::new(0, 1 << FINEST)];

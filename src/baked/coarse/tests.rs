@@ -11,7 +11,7 @@ use crate::scene::{AlphaMode, Scene, Triangle, builtin};
 
 const MAX_SIDE: u32 = 8192;
 
-/// The elements of a scene, finer round one of its vertices.
+/// Returns the elements of a scene, finer round one of its vertices.
 fn elements_of(scene: &Scene, element_size: f32) -> Scene {
     let settings = MeshSettings { element_size, patch_size: 1.0 };
     let mut splits = Splits::default();
@@ -91,7 +91,7 @@ fn is_in(tile: &Tile, texel: UVec2) -> bool {
     texel.cmpge(tile.origin).all() && (texel - tile.origin).element_sum() <= tile.side
 }
 
-/// The texture, filled as shaders/stored_light/light_tiles.wgsl does it, with a value for each vertex.
+/// Returns the texture, filled as shaders/stored_light/light_tiles.wgsl does it, with a value for each vertex.
 fn filled(coarse: &CoarseMesh, value: impl Fn(u32) -> f32) -> Vec<f32> {
     let side = coarse.side;
     let at = |texel: UVec2| (texel.y * side + texel.x) as usize;

@@ -20,7 +20,7 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// The arrays of glTF for a scene; empty arrays are left out, because glTF forbids them.
+    /// Returns the arrays of glTF for a scene; empty arrays are left out, because glTF forbids them.
     pub(super) fn of(scene: &Scene, light: LightStorage<'_>) -> Self {
         let mut binary = Binary::default();
         let mut extensions = Extensions::new();

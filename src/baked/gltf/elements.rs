@@ -40,8 +40,8 @@ impl<'a> Elements<'a> {
         Self { scene, trees: trees.map(|trees| trees.iter().map(|tree| (tree.elements.start, tree)).collect()) }
     }
 
-    /// The record of a primitive of these triangles; `fronts` are those of the primitive before if the triangles may be
-    /// their backs. `None` if there is nothing to record.
+    /// Returns the record of a primitive of these triangles; `fronts` are those of the primitive before if the
+    /// triangles may be their backs. `None` if there is nothing to record.
     pub(super) fn record(&self, triangles: &[TriangleId], fronts: Option<&[TriangleId]>) -> Option<Value> {
         let mut record = json!({ "version": VERSION });
         if let Some(trees) = &self.trees {
@@ -93,7 +93,7 @@ pub(super) fn read(scene: &Scene, records: &[(InstanceId, ElementRecord)]) -> Re
     recorded
 }
 
-/// The trees of all instances. `None` if an instance has no record of them.
+/// Returns the trees of all instances. `None` if an instance has no record of them.
 fn trees(scene: &Scene, records: &[(InstanceId, ElementRecord)]) -> Result<Option<BisectionTrees>, String> {
     let by_instance: HashMap<usize, &ElementRecord> =
         records.iter().map(|(instance, record)| (instance.index(), record)).collect();

@@ -1,5 +1,5 @@
-//! The tree of nodes, which a bake keeps with its transforms, so that other programs find each mesh, light and camera
-//! in its place.
+//! The node tree. A bake keeps it with its transforms, so that other programs find each mesh, light and camera in its
+//! place.
 
 use std::ops::Range;
 
@@ -9,14 +9,13 @@ use serde_json::{Value, json};
 use super::json::named;
 use crate::scene::{Instance, Scene, Transform, is_degenerate, is_placeable};
 
-/// Volume of a transformed unit cube relative to the cube of its longest edge, below which the transform counts as
-/// flat.
+/// A transform is flat if it maps the unit cube to less than this share of the volume of a cube with its longest edge.
 const FLAT: f64 = 1e-9;
 
-/// A node that is written.
+/// A glTF node that is written.
 pub(super) struct Branch {
     pub name: String,
-    /// Index of the parent, which comes before. `None` for a root.
+    /// Index of the parent, an earlier branch. `None` for a root.
     pub parent: Option<usize>,
     /// Its triangles in the scene; empty if it has no mesh.
     pub triangles: Range<usize>,
@@ -35,7 +34,7 @@ pub(super) struct Space {
     node_from_world: DAffine3,
 }
 
-/// The branches of a scene. Every instance is a branch if the scene has no node tree.
+/// Returns the branches of a scene. Every instance is a branch if the scene has no node tree.
 pub(super) fn branches(scene: &Scene) -> Vec<Branch> {
     if scene.nodes.is_empty() {
         let shown = scene.instances.iter().filter(|instance| !instance.triangles.is_empty());
@@ -65,8 +64,8 @@ pub(super) fn branches(scene: &Scene) -> Vec<Branch> {
     branches
 }
 
-/// Gives meshes whose slivers would be lost to rounding in the space of their node, for instance skinned meshes far
-/// from it, a node of the same name in world space.
+/// Some meshes have slivers that rounding would destroy in the space of their node, for instance skinned meshes far
+/// from it. Moves such a mesh to a new node of the same name in world space.
 fn move_to_world_what_rounding_would_lose(scene: &Scene, branches: &mut Vec<Branch>) {
     for n in 0..branches.len() {
         if !branches[n].space.keeps(scene, &branches[n].triangles) {
@@ -96,7 +95,7 @@ impl Branch {
         }
     }
 
-    /// The node as a glTF object, without mesh, light, camera and children.
+    /// Returns the node as a glTF object, without mesh, light, camera and children.
     pub(super) fn node(&self) -> Value {
         let mut node = named(&self.name);
         match self.transform {
@@ -119,7 +118,7 @@ impl Space {
         Self { world_from_node, node_from_world: world_from_node.inverse() }
     }
 
-    /// No triangle becomes degenerate by the transform into this space and back.
+    /// Returns true if no triangle becomes degenerate by the transform into this space and back.
     fn keeps(&self, scene: &Scene, triangles: &Range<usize>) -> bool {
         let back = |v: u32| {
             let local = self.position(scene.vertices[v as usize].position);
@@ -132,7 +131,7 @@ impl Space {
         *self == Self::WORLD || scene.triangles[triangles.clone()].iter().all(is_kept)
     }
 
-    /// The transform inverts the winding of triangles.
+    /// Returns true if the transform inverts the winding of triangles.
     pub(super) fn is_mirrored(&self) -> bool {
         self.world_from_node.matrix3.determinant() < 0.0
     }
@@ -151,7 +150,7 @@ impl Space {
     }
 }
 
-/// The triangles of consecutive instances, which are consecutive as well.
+/// Returns the triangles of consecutive instances, which are consecutive as well.
 fn triangles_of(scene: &Scene, instances: &Range<usize>) -> Range<usize> {
     let shown = &scene.instances[instances.clone()];
     match (shown.first(), shown.last()) {
@@ -160,7 +159,7 @@ fn triangles_of(scene: &Scene, instances: &Range<usize>) -> Range<usize> {
     }
 }
 
-/// The name of a node, or of its first instance if it has none.
+/// Returns the name of a node, or of its first instance if it has none.
 fn name_of(scene: &Scene, n: usize) -> String {
     let node = &scene.nodes[n];
     match scene.instances[node.instances.clone()].first() {

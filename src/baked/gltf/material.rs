@@ -23,7 +23,7 @@ pub(super) struct Surfaces {
     pub materials: Vec<Value>,
 }
 
-/// The surfaces of a scene. Those of a bake are unlit, and their vertex colours show the light.
+/// Returns the surfaces of a scene. Those of a bake are unlit, and their vertex colours show the light.
 pub(super) fn surfaces(scene: &Scene, is_baked: bool, binary: &mut Binary, used: &mut Extensions) -> Surfaces {
     let unique = unique_images(scene);
     Surfaces {
@@ -34,7 +34,7 @@ pub(super) fn surfaces(scene: &Scene, is_baked: bool, binary: &mut Binary, used:
     }
 }
 
-/// The texture slots that a material uses.
+/// Returns the texture slots that a material uses.
 pub(super) fn texture_slots(material: &Material) -> impl Iterator<Item = &TextureSlot> {
     let normal = material.normal_texture.as_ref().map(|(slot, _)| slot);
     let others = [&material.base_colour_texture, &material.metallic_roughness_texture, &material.emissive_texture];
@@ -47,7 +47,7 @@ struct UniqueImages<'a> {
     number: HashMap<*const Image, usize>,
 }
 
-/// The different images of all textures.
+/// Returns the different images of all textures.
 fn unique_images(scene: &Scene) -> UniqueImages<'_> {
     let mut unique = UniqueImages { images: Vec::new(), number: HashMap::new() };
     for texture in &scene.textures {
@@ -59,7 +59,7 @@ fn unique_images(scene: &Scene) -> UniqueImages<'_> {
     unique
 }
 
-/// The images, as they are encoded if every viewer can read that (PNG and JPEG), else as PNG.
+/// Returns the images, as they are encoded if every viewer can read that (PNG and JPEG), else as PNG.
 fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
     let embedded = |image: &&Image| {
         let is_plain = !image.encoded.is_empty() && matches!(image.mime_type.as_str(), "image/png" | "image/jpeg");
@@ -76,7 +76,7 @@ fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
     unique.images.iter().map(embedded).collect()
 }
 
-/// The bytes of a PNG file.
+/// Returns the bytes of a PNG file.
 pub(super) fn png(pixels: &[u8], width: u32, height: u32, kind: ExtendedColorType) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
     PngEncoder::new(&mut file)
@@ -95,7 +95,7 @@ fn textures(scene: &Scene, unique: &UniqueImages<'_>) -> Vec<Value> {
     scene.textures.iter().map(object).collect()
 }
 
-/// The different samplers in use.
+/// Returns the different samplers in use.
 fn samplers(scene: &Scene) -> Vec<Value> {
     unique_samplers(scene).into_iter().map(sampler).collect()
 }
@@ -123,7 +123,7 @@ fn sampler(sampler: Sampler) -> Value {
     json!({ "wrapS": wrap(sampler.wrap_u), "wrapT": wrap(sampler.wrap_v), "magFilter": mag, "minFilter": min })
 }
 
-/// All materials; those of a bake show the light in their vertex colours.
+/// Returns all materials; those of a bake show the light in their vertex colours.
 fn materials(scene: &Scene, is_baked: bool, used: &mut Extensions) -> Vec<Value> {
     let object = |material| {
         let object = object(scene, material, used);
@@ -132,7 +132,7 @@ fn materials(scene: &Scene, is_baked: bool, used: &mut Extensions) -> Vec<Value>
     scene.materials.iter().map(object).collect()
 }
 
-/// The material as an unlit surface that leaves all colour to its vertices and its texture, with what it was in
+/// Returns the material as an unlit surface that leaves all colour to its vertices and its texture, with what it was in
 /// `extras`.
 fn showing_light(mut object: Value, material: &Material, used: &mut Extensions) -> Value {
     const UNLIT: &str = "KHR_materials_unlit";

@@ -15,7 +15,7 @@ use super::moz_lightmap;
 use crate::base::ids::{MaterialId, TriangleId};
 use crate::scene::{Material, Scene, Vertex};
 
-/// One mesh for each branch that has triangles, in their order.
+/// Returns one mesh for each branch (glTF node) that has triangles, in their order.
 pub(super) fn meshes(scene: &Scene, branches: &[Branch], light: LightStorage<'_>, binary: &mut Binary) -> Vec<Value> {
     let elements = match light {
         LightStorage::Vertices { trees, .. } => Some(Elements::new(scene, trees)),
@@ -70,7 +70,7 @@ fn mesh(
     mesh
 }
 
-/// The vertices that triangles use, in the order of first use, and the triangles as indices of these.
+/// Returns the vertices that triangles use, in the order of first use, and the triangles as indices of these.
 fn renumber(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
     let mut vertices = Vec::new();
     let mut number = HashMap::new();
@@ -140,8 +140,8 @@ fn attributes(
     attributes
 }
 
-/// Number of texture coordinate sets, from 0 on, up to the last that is not 0 or that the material reads; glTF allows
-/// no gaps.
+/// Returns the number of texture coordinate sets, from 0 on, up to the last that is not 0 or that the material reads;
+/// glTF allows no gaps.
 fn num_uv_sets<'a>(material: &Material, vertices: impl Iterator<Item = &'a Vertex> + Clone) -> usize {
     let read = texture_slots(material).map(|slot| slot.uv_set + 1).max().unwrap_or(0);
     let holds = |set: usize| vertices.clone().any(|vertex| vertex.uv[set] != glam::Vec2::ZERO);

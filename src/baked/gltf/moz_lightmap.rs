@@ -22,7 +22,7 @@ use crate::scene::{Material, Scene};
 
 const EXTENSION: &str = "MOZ_lightmap";
 
-/// The texture coordinate set of the lightmap: the second, or a later one if the material uses that.
+/// Returns the texture coordinate set of the lightmap: the second, or a later one if the material uses that.
 pub(super) fn uv_set(material: &Material) -> usize {
     texture_slots(material).map(|slot| slot.uv_set + 1).max().unwrap_or(0).max(1)
 }
@@ -33,8 +33,8 @@ pub(super) fn white(lightmap: &Lightmap, exposure: f32) -> f32 {
     if brightest > 0.0 { brightest.min(TAU / exposure) } else { PI / exposure }
 }
 
-/// The scene at an exposure: emission is scaled, there are no lights, and no material is double-sided, because backs
-/// are triangles of their own.
+/// Returns the scene at an exposure: emission is scaled, there are no lights, and no material is double-sided, because
+/// backs are triangles of their own.
 pub(super) fn shown(lightmap: &Lightmap, exposure: f32) -> Scene {
     let mut scene = lightmap.scene.clone();
     scene.lights.clear();
@@ -74,14 +74,14 @@ pub(super) fn add(
     }
 }
 
-/// A sampler without mip maps, which would mix charts that are neighbours in the image only.
+/// Returns a sampler without mip maps, which would mix charts that are neighbours in the image only.
 fn sampler() -> Value {
     const LINEAR: u32 = 9729;
     const CLAMP: u32 = 33071;
     json!({ "wrapS": CLAMP, "wrapT": CLAMP, "magFilter": LINEAR, "minFilter": LINEAR })
 }
 
-/// The image, dithered by a fixed pattern, so that dark gradients show no bands.
+/// Returns the image, dithered by a fixed pattern, so that dark gradients show no bands.
 fn picture(lightmap: &Lightmap, white: f32) -> Vec<u8> {
     let texels = &lightmap.texels;
     let bytes: Vec<u8> = texels

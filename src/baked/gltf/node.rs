@@ -1,5 +1,5 @@
-//! Nodes: the branches of the tree with their meshes, lights and cameras, and the lights and cameras that no branch
-//! has.
+//! The nodes of the file: one for each [`Branch`] (a glTF node with its mesh, light and camera), and one for each light
+//! and camera without a branch.
 
 use glam::{Quat, Vec3};
 use serde_json::{Value, json};
@@ -20,7 +20,7 @@ const NEAR: f32 = 0.01;
 /// Far plane of an orthographic camera, metres. glTF requires one; this program does not read it.
 const FAR: f32 = 1000.0;
 
-/// One node for every branch and for every light and camera that no branch has, and the indices of the roots.
+/// Returns one node for each branch and for each light and camera without a branch, and the indices of the roots.
 pub(super) fn nodes(scene: &Scene, branches: &[Branch]) -> (Vec<Value>, Vec<usize>) {
     let mut nodes: Vec<Value> = branches.iter().map(Branch::node).collect();
     let drawn = branches.iter().enumerate().filter(|(_, branch)| !branch.triangles.is_empty());
@@ -59,7 +59,8 @@ pub(super) fn nodes(scene: &Scene, branches: &[Branch]) -> (Vec<Value>, Vec<usiz
     (nodes, roots)
 }
 
-/// Extensions of a node with a light. Lights with a photometric table and those without are in separate lists.
+/// Returns the extensions of a node that carries a light. Lights with a photometric table and those without are in
+/// separate lists.
 fn carrying(scene: &Scene, light: usize) -> Value {
     let Light { profile, intensity, .. } = &scene.lights[light];
     let number = scene.lights[..light].iter().filter(|other| other.profile.is_some() == profile.is_some()).count();
@@ -80,7 +81,7 @@ fn placed(name: &str, translation: Vec3, rotation: Quat) -> Value {
     node
 }
 
-/// Translation and rotation of a light, which shines along the -Z axis of its node.
+/// Returns the translation and rotation of a light, which shines along the -Z axis of its node.
 fn place_of_light(light: &Light) -> (Vec3, Quat) {
     let turned = |direction| Quat::from_rotation_arc(Vec3::NEG_Z, direction).normalize();
     match light.kind {
@@ -92,13 +93,13 @@ fn place_of_light(light: &Light) -> (Vec3, Quat) {
     }
 }
 
-/// The lights of KHR_lights_punctual.
+/// Returns the lights of KHR_lights_punctual.
 pub(super) fn lights(scene: &Scene) -> Vec<Value> {
     let punctual = scene.lights.iter().filter(|light| light.profile.is_none());
     punctual.map(|light| punctual_light(light, group_name(scene, light.group))).collect()
 }
 
-/// The photometric files of EXT_lights_ies.
+/// Returns the photometric files of EXT_lights_ies.
 pub(super) fn profiles(scene: &Scene, binary: &mut Binary) -> Vec<Value> {
     let profile = |light: &Light| {
         let view = binary.push_file(light.profile.as_ref()?.photometry.file());
@@ -111,7 +112,7 @@ pub(super) fn profiles(scene: &Scene, binary: &mut Binary) -> Vec<Value> {
     scene.lights.iter().filter_map(profile).collect()
 }
 
-/// The colour of a light, scaled so that its largest channel is 1; white if the light is off.
+/// Returns the colour of a light, scaled so that its largest channel is 1; white if the light is off.
 fn colour_of(intensity: Vec3) -> Vec3 {
     let largest = intensity.max_element();
     if largest > 0.0 { intensity / largest } else { Vec3::ONE }
@@ -137,12 +138,12 @@ fn punctual_light(light: &Light, group: &str) -> Value {
     object
 }
 
-/// Name of a light group.
+/// Returns the name of a light group.
 pub(super) fn group_name(scene: &Scene, group: GroupId) -> &str {
     &scene.light_groups[group.index()]
 }
 
-/// The cameras as glTF objects; [`nodes`] writes their transforms.
+/// Returns the cameras as glTF objects; [`nodes`] writes their transforms.
 pub(super) fn cameras(scene: &Scene) -> Vec<Value> {
     scene.cameras.iter().map(camera).collect()
 }

@@ -43,7 +43,7 @@ pub fn from_scene(mut scene: Scene) -> Result<BakedScene, Scene> {
 /// Selects the direct or the indirect light of a group.
 type Part = fn(&mut GroupLight) -> &mut Vec<glam::Vec3>;
 
-/// The part and the group whose light an attribute holds. `None` if its name is no such name.
+/// Returns the part and the group whose light an attribute holds. `None` if its name is no such name.
 fn part(name: &str) -> Option<(Part, usize)> {
     let (part, number): (Part, _) = if let Some(number) = name.strip_prefix("_IRRADIANCE_DIRECT_") {
         (|group| &mut group.direct, number)

@@ -13,7 +13,7 @@ use crate::scene::{
     TextureSlot, Triangle, Vertex, Wrap,
 };
 
-/// A one-pixel texture.
+/// Returns a one-pixel texture.
 fn texture(wrap_u: Wrap) -> Texture {
     let mut encoded = std::io::Cursor::new(Vec::new());
     image::RgbaImage::from_pixel(1, 1, image::Rgba([200, 100, 50, 255]))
@@ -148,12 +148,12 @@ fn the_file_is_valid_gltf_with_shared_vertices_and_sides_apart() {
     assert_eq!(counts, [(Some(0), false, 4, Some(6)), (Some(1), false, 4, Some(6)), (Some(1), true, 3, Some(3))]);
 }
 
-/// The scene as our own loader gives it back.
+/// Returns the scene as our own loader gives it back.
 fn reloaded(glb: &[u8]) -> Scene {
     crate::scene::gltf::from_slice("all", glb).expect("our own file loads")
 }
 
-/// Corners of the triangles in file order: those of one primitive side by side.
+/// Returns the corners of the triangles in file order: those of one primitive side by side.
 fn sorted_triangles(scene: &Scene) -> Vec<(bool, &Triangle)> {
     let is_back = |t: usize| scene.sides.is_back(TriangleId::new(t));
     let mut triangles: Vec<(bool, &Triangle)> =

@@ -1,4 +1,4 @@
-//! The appearance in viewers that read no stored light: unlit surfaces in the colour of their light at one exposure.
+//! The appearance in viewers that do not read the stored light: unlit surfaces that show it at one exposure.
 //!
 //! Equation: COLOR_0 = tone(radiance x 2^EV), without the base colour texture, which the viewer multiplies. The tone
 //! mapping is that of this program, so that pictures look alike.
@@ -38,8 +38,7 @@ impl UnlitAppearance<'_> {
     }
 }
 
-/// The emissive texture takes the place of the base colour texture, and reflected light is neglected beside the
-/// emission.
+/// Returns true if the emissive texture takes the place of the base colour texture. Reflected light is then neglected.
 pub(super) fn shows_emission(material: &Material) -> bool {
     material.is_emissive() && material.emissive_texture.is_some() && !material.unlit
 }

@@ -36,7 +36,7 @@ fn write_bytes(path: &Path, bytes: &[u8]) -> Result<(), BakedError> {
     write_whole(path, bytes).map_err(|source| BakedError::Write { path: path.to_owned(), source })
 }
 
-/// The bytes of a bake as .glb.
+/// Returns the bytes of a bake as .glb.
 ///
 /// # Errors
 /// Returns an error if the scene is larger than a .glb can be.
@@ -47,7 +47,7 @@ pub fn to_glb(baked: &BakedScene, exposure_ev: f32) -> Result<Vec<u8>, BakedErro
     document.into_glb()
 }
 
-/// The bytes of a scene with its light in a texture as .glb.
+/// Returns the bytes of a scene with its light in a texture as .glb.
 ///
 /// # Errors
 /// Returns an error if the scene is larger than a .glb can be.
@@ -61,7 +61,7 @@ pub fn lightmap_to_glb(lightmap: &Lightmap, exposure_ev: f32) -> Result<Vec<u8>,
     document.into_glb()
 }
 
-/// The bytes of a scene without light as .glb.
+/// Returns the bytes of a scene without light as .glb.
 ///
 /// # Errors
 /// Returns an error if the scene is larger than a .glb can be.

@@ -16,7 +16,7 @@ pub(super) struct Builder {
     textures: Vec<Texture>,
 }
 
-/// A diffuse material of the given linear reflectance.
+/// Returns a diffuse material of the given linear reflectance.
 pub(super) fn paint(name: &str, reflectance: [f32; 3]) -> Material {
     Material { name: name.to_owned(), ..Material::diffuse(reflectance.into()) }
 }

@@ -1,4 +1,4 @@
-//! Architecture as rooms carved out of a solid: walls face inward, are closed, and share every edge.
+//! Architecture as rooms carved out of a solid: the walls are closed, face inward, and share every edge.
 //!
 //! The planes of all boxes divide space into the cells of a rectilinear grid. A cell is solid by default, air inside a
 //! room, and solid again inside a block. There is a face between each pair of an air cell and a solid cell, so
@@ -11,7 +11,7 @@ use glam::Vec3;
 use super::shape::{Shape, Side, polygon, side_corners};
 use crate::base::ids::MaterialId;
 
-/// Distance within which two coordinates are the same grid line, metres.
+/// Distance below which two coordinates are the same grid line, metres.
 const SAME: f32 = 1e-4;
 
 /// Materials of the six sides, in the order of [`Side::ALL`].
@@ -59,7 +59,7 @@ impl Carving {
         self.boxes.push(Region { name: name.to_owned(), extent: (low.into(), high.into()), is_air, finish });
     }
 
-    /// The resulting surfaces, one for each side of each room and block: name, material, shape.
+    /// Returns the resulting surfaces, one for each side of each room and block: name, material, shape.
     pub(super) fn surfaces(&self) -> Vec<(String, MaterialId, Shape)> {
         let mut shapes: BTreeMap<(usize, usize), Vec<Shape>> = BTreeMap::new();
         for (region, side, face) in self.faces() {
@@ -73,7 +73,7 @@ impl Carving {
         shapes.into_iter().map(surface).collect()
     }
 
-    /// All faces between air and solid, each with its region and the side of that region.
+    /// Returns all faces between air and solid, each with its region and the side of that region.
     fn faces(&self) -> Vec<(usize, Side, Shape)> {
         let lines = self.lines();
         let owner = |cell: [usize; 3]| self.owner(&lines, cell);
@@ -97,7 +97,7 @@ impl Carving {
         faces
     }
 
-    /// The last region that contains the cell; `None` outside all regions, where space is solid.
+    /// Returns the last region that contains the cell; `None` outside all regions, where space is solid.
     fn owner(&self, lines: &Lines, cell: [usize; 3]) -> Option<usize> {
         let (low, high) = bounds(lines, cell);
         let middle = (low + high) / 2.0;
@@ -177,7 +177,8 @@ mod tests {
         builder.finish()
     }
 
-    /// Number of edges without a partner in the opposite direction: zero for a closed surface without T-junctions.
+    /// Returns the number of edges without a partner in the opposite direction: zero for a closed surface without
+    /// T-junctions.
     fn open_edges(scene: &crate::scene::Scene) -> usize {
         let mut edges: HashMap<[[u32; 3]; 2], i32> = HashMap::new();
         for t in 0..scene.triangles.len() {
@@ -199,7 +200,7 @@ mod tests {
         carving.block("block", ([0.4, 0.0, 0.3], [0.6, 0.1, 0.9]), MaterialId(0), MaterialId(0));
         let scene = built(&carving);
         assert_eq!(open_edges(&scene), 0);
-        // The niche adds four sides, the block four sides; their ends replace the areas that they cover.
+        // The niche and the block add four sides each; their ends replace the areas that they cover.
         let sides = 4.0 * 0.5 * 0.5 + 2.0 * 0.1 * (0.2 + 0.6);
         assert!((scene.area() - (6.0 + sides)).abs() < 1e-5, "{}", scene.area());
     }

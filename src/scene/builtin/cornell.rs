@@ -21,7 +21,7 @@ const SHORT_BLOCK_TOP: [[f32; 3]; 4] =
 const TALL_BLOCK_TOP: [[f32; 3]; 4] =
     [[423.0, 330.0, 247.0], [265.0, 330.0, 296.0], [314.0, 330.0, 456.0], [472.0, 330.0, 406.0]];
 
-/// The Cornell box: 5.5 m wide, the light flush in a hole of the ceiling, one camera.
+/// Returns the Cornell box: 5.5 m wide, the light flush in a hole of the ceiling, one camera.
 #[must_use]
 pub fn cornell() -> Scene {
     let mut builder = Builder::new("cornell");
@@ -48,7 +48,7 @@ fn metres(corners: [[f32; 3]; 4]) -> [Vec3; 4] {
     corners.map(|corner| Vec3::from(corner) / 100.0)
 }
 
-/// The area between two quadrilaterals whose corners correspond.
+/// Returns the area between two quadrilaterals whose corners correspond.
 fn frame(outer: [Vec3; 4], inner: [Vec3; 4]) -> Shape {
     (0..4)
         .map(|i| {
@@ -58,7 +58,7 @@ fn frame(outer: [Vec3; 4], inner: [Vec3; 4]) -> Shape {
         .collect()
 }
 
-/// A block that stands on the floor, given its top, without a bottom face.
+/// Returns a block that stands on the floor, given its top, without a bottom face.
 fn block(top: [Vec3; 4]) -> Shape {
     let on_floor = |corner: Vec3| corner.with_y(0.0);
     let side = |i: usize| {

@@ -9,7 +9,7 @@ use glam::{Vec2, Vec3};
 use crate::base::sampling::{hash, unit_float};
 use crate::scene::Image;
 
-/// An image whose pixel at (u, v), both in 0..1 from the top left, has the sRGB colour `paint((u, v))`.
+/// Returns an image whose pixel at (u, v), both in 0..1 from the top left, has the sRGB colour `paint((u, v))`.
 fn image(name: &str, [width, height]: [u32; 2], paint: impl Fn(Vec2) -> Vec3) -> Image {
     let pixels = image::RgbImage::from_fn(width, height, |x, y| {
         let at = (Vec2::new(x as f32, y as f32) + 0.5) / Vec2::new(width as f32, height as f32);
@@ -31,7 +31,7 @@ fn random(x: i32, y: i32) -> f32 {
     unit_float(hash((x as u32).wrapping_mul(0x9e37_79b9) ^ hash(y as u32)))
 }
 
-/// Value noise in 0..1 that repeats after `period` cells.
+/// Returns the value noise in 0..1 that repeats after `period` cells.
 fn noise(at: Vec2, period: [i32; 2]) -> f32 {
     let low = at.floor();
     let share = at - low;
@@ -43,7 +43,7 @@ fn noise(at: Vec2, period: [i32; 2]) -> f32 {
     top + (bottom - top) * share.y
 }
 
-/// Eight planks side by side with staggered ends and grain along V; the image tiles.
+/// Paints eight planks side by side with staggered ends and grain along V; the image tiles.
 pub(super) fn planks() -> Image {
     const PLANKS: f32 = 8.0;
     image("planks", [256, 256], |at| {
@@ -59,7 +59,7 @@ pub(super) fn planks() -> Image {
     })
 }
 
-/// Rectangles of primary colours between black bars.
+/// Paints rectangles of primary colours between black bars.
 pub(super) fn composition() -> Image {
     const COLUMNS: [f32; 3] = [0.22, 0.68, 0.86];
     const ROWS: [f32; 3] = [0.30, 0.62, 0.85];
@@ -79,7 +79,7 @@ pub(super) fn composition() -> Image {
     })
 }
 
-/// Rings round two centres.
+/// Paints rings round two centres.
 pub(super) fn rings() -> Image {
     const PALETTE: [u32; 5] = [0x12_33_4a, 0xe2_7d_2c, 0xf3_e0_b5, 0x2b_7f_82, 0xa6_2b_34];
     image("rings", [128, 128], |at| {
@@ -90,7 +90,7 @@ pub(super) fn rings() -> Image {
     })
 }
 
-/// Two soft fields of colour one above the other.
+/// Paints two soft fields of colour one above the other.
 pub(super) fn fields() -> Image {
     image("fields", [64, 128], |at| {
         // Coverage by a rectangle with blurred borders: 0 outside, 1 well inside.
@@ -105,7 +105,7 @@ pub(super) fn fields() -> Image {
     })
 }
 
-/// Blue hills before a pale sky.
+/// Paints blue hills before a pale sky.
 pub(super) fn hills() -> Image {
     image("hills", [128, 128], |at| {
         let sky = rgb(0xf4_e3_c3).lerp(rgb(0x9d_c3_d6), 1.0 - at.y);

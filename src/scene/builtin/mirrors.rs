@@ -7,11 +7,11 @@ use super::round::sphere;
 use super::shape::{Shape, Side, cuboid, polygon};
 use crate::scene::{Material, Scene};
 
-/// Far corner of the room, metres; the near one is the origin.
+/// Maximum corner of the room, metres; the minimum corner is the origin.
 const ROOM: Vec3 = Vec3::new(4.0, 3.0, 4.0);
 
-/// A closed room, 4 m wide, with a lamp, a mirror on the wall, a block of copper, a silver ball, and a pane of green
-/// glass.
+/// Returns a closed room, 4 m wide, with a lamp, a mirror on the wall, a block of copper, a silver ball, and a pane of
+/// green glass.
 #[must_use]
 pub fn mirrors() -> Scene {
     let mut builder = Builder::new("mirrors");
@@ -49,12 +49,12 @@ fn plinth() -> Shape {
     cuboid(Vec3::new(-0.3, 0.0, -0.3), Vec3::new(0.3, 0.5, 0.3), &[Side::Below])
 }
 
-/// The shape rotated by `turn` radians about +Y and moved to `place`.
+/// Returns the shape rotated by `turn` radians about +Y and moved to `place`.
 fn standing(shape: Shape, turn: f32, place: [f32; 3]) -> Shape {
     shape.turned(Quat::from_rotation_y(turn)).moved(place.into())
 }
 
-/// Corners of a rectangle with the normal `u` x `v`.
+/// Returns the corners of a rectangle with the normal `u` x `v`.
 fn rectangle(corner: [f32; 3], u: Vec3, v: Vec3, [width, height]: [f32; 2]) -> [Vec3; 4] {
     let corner = Vec3::from(corner);
     [corner, corner + width * u, corner + width * u + height * v, corner + height * v]

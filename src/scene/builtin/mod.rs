@@ -23,7 +23,7 @@ pub const PREFIX: &str = "builtin:";
 /// Names of the built-in scenes.
 pub const NAMES: [&str; 3] = ["gallery", "cornell", "mirrors"];
 
-/// The built-in scene of this name; `None` if there is none.
+/// Returns the built-in scene of this name; `None` if there is none.
 #[must_use]
 pub fn by_name(name: &str) -> Option<Scene> {
     match name {

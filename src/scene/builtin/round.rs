@@ -10,8 +10,8 @@ use crate::scene::Vertex;
 /// Cosine of the crease angle, 50 degrees: neighbouring bands whose normals differ by less are shaded smoothly.
 const CREASE: f32 = 0.643;
 
-/// The point of the unit circle at `share` of a turn. It is computed in double precision, so that every machine rounds
-/// it to the same single.
+/// Returns the point of the unit circle at `share` of a turn. It is computed in double precision, so that it rounds to
+/// the same single-precision value on every machine.
 fn on_circle(share: f64) -> Vec2 {
     Vec2::new((share * TAU).cos() as f32, (share * TAU).sin() as f32)
 }
@@ -62,7 +62,7 @@ fn ring([low, high]: [Vec2; 2], normals: [Vec2; 2], sides: u32) -> Shape {
     shape
 }
 
-/// A sphere about the origin.
+/// Returns a sphere about the origin.
 pub(super) fn sphere(radius: f32, sides: u32, bands: u32) -> Shape {
     let point = |band: u32| match on_circle(f64::from(band) / f64::from(2 * bands)) {
         // The poles lie exactly on the axis.
@@ -73,7 +73,7 @@ pub(super) fn sphere(radius: f32, sides: u32, bands: u32) -> Shape {
     lathe(&(0..=bands).map(point).collect::<Vec<_>>(), sides)
 }
 
-/// A torus about the origin.
+/// Returns a torus about the origin.
 pub(super) fn torus(radius: f32, tube_radius: f32, sides: u32, tube_sides: u32) -> Shape {
     let point = |side: u32| {
         let at = on_circle(f64::from(side % tube_sides) / f64::from(tube_sides));
@@ -87,8 +87,8 @@ pub(super) fn torus(radius: f32, tube_radius: f32, sides: u32, tube_sides: u32) 
     torus
 }
 
-/// A regular prism without a bottom, twisted by the share `twist` of a turn between its foot at the origin and its top,
-/// with flat faces.
+/// Returns a regular prism without a bottom, twisted by the share `twist` of a turn between its foot at the origin and
+/// its top, with flat faces.
 pub(super) fn twisted_prism(radius: f32, height: f32, twist: f64, sides: u32, layers: u32) -> Shape {
     let corner = |side: u32, layer: u32| {
         let up = f64::from(layer) / f64::from(layers);

@@ -32,13 +32,13 @@ impl Side {
     /// Every side.
     pub(super) const ALL: [Side; 6] = [Side::West, Side::East, Side::Below, Side::Above, Side::North, Side::South];
 
-    /// Axis of its normal, and whether the normal points in the positive direction.
+    /// Returns the axis of its normal, and true if the normal points in the positive direction.
     pub(super) fn axis(self) -> (usize, bool) {
         (self as usize / 2, self as usize % 2 == 1)
     }
 }
 
-/// A planar convex polygon with corners counter-clockwise as seen from the front.
+/// Returns a planar convex polygon with corners counter-clockwise as seen from the front.
 pub(super) fn polygon(corners: &[Vec3]) -> Shape {
     // Newell's formula gives all triangles of the polygon the same normal.
     let around = (0..corners.len()).map(|i| corners[i].cross(corners[(i + 1) % corners.len()]));
@@ -48,7 +48,7 @@ pub(super) fn polygon(corners: &[Vec3]) -> Shape {
     Shape { vertices, triangles }
 }
 
-/// Corners of one side of a box, counter-clockwise as seen from outside.
+/// Returns the corners of one side of a box, counter-clockwise as seen from outside.
 pub(super) fn side_corners(low: Vec3, high: Vec3, side: Side) -> [Vec3; 4] {
     let (axis, is_positive) = side.axis();
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -62,7 +62,7 @@ pub(super) fn side_corners(low: Vec3, high: Vec3, side: Side) -> [Vec3; 4] {
     if is_positive { corners } else { [corners[0], corners[3], corners[2], corners[1]] }
 }
 
-/// An axis-parallel box without the sides in `open`.
+/// Returns an axis-parallel box without the sides in `open`.
 pub(super) fn cuboid(low: Vec3, high: Vec3, open: &[Side]) -> Shape {
     let sides = Side::ALL.into_iter().filter(|side| !open.contains(side));
     sides.map(|side| polygon(&side_corners(low, high, side))).collect()
@@ -75,7 +75,7 @@ impl FromIterator<Shape> for Shape {
 }
 
 impl Shape {
-    /// Union of the vertices and triangles of two shapes.
+    /// Returns the union of the vertices and triangles of two shapes.
     pub(super) fn join(mut self, other: Shape) -> Self {
         let first = self.vertices.len() as u32;
         self.vertices.extend(other.vertices);
@@ -83,13 +83,13 @@ impl Shape {
         self
     }
 
-    /// Shifted by `offset` metres.
+    /// Returns the shape shifted by `offset` metres.
     pub(super) fn moved(mut self, offset: Vec3) -> Self {
         self.vertices.iter_mut().for_each(|vertex| vertex.position += offset);
         self
     }
 
-    /// Rotated about the origin.
+    /// Returns the shape rotated about the origin.
     pub(super) fn turned(mut self, rotation: Quat) -> Self {
         for vertex in &mut self.vertices {
             vertex.position = rotation * vertex.position;
@@ -98,7 +98,8 @@ impl Shape {
         self
     }
 
-    /// Rotated counter-clockwise about +Y, as seen from above, by a multiple of 90 degrees, without rounding.
+    /// Returns the shape rotated counter-clockwise about +Y, as seen from above, by a multiple of 90 degrees, without
+    /// rounding.
     pub(super) fn quarter_turned(mut self, times: usize) -> Self {
         for _ in 0..times {
             for vertex in &mut self.vertices {
@@ -110,14 +111,14 @@ impl Shape {
         self
     }
 
-    /// The shape with its front and back faces exchanged.
+    /// Returns the shape with its front and back faces exchanged.
     pub(super) fn inside_out(mut self) -> Self {
         self.vertices.iter_mut().for_each(|vertex| vertex.normal = -vertex.normal);
         self.triangles.iter_mut().for_each(|corners| corners.swap(1, 2));
         self
     }
 
-    /// The shape with texture coordinates as a function of position.
+    /// Returns the shape with texture coordinates as a function of position.
     pub(super) fn with_uv(mut self, uv: impl Fn(Vec3) -> Vec2) -> Self {
         self.vertices.iter_mut().for_each(|vertex| vertex.uv[0] = uv(vertex.position));
         self

@@ -7,13 +7,13 @@ use glam::{IVec3, Vec3};
 use super::finding::{Finding, FindingKind, Location};
 use super::weld::Welded;
 
-/// Distance within which a vertex lies on an edge, as a share of the scene's diagonal: a few units of rounding.
+/// Distance below which a vertex counts as on an edge, as a share of the scene's diagonal: a few units of rounding.
 const ON_EDGE: f32 = 4e-6;
 
-/// Most steps along one edge in the search grid.
+/// Largest number of steps along one edge in the search grid.
 const MAX_STEPS: usize = 4096;
 
-/// Triangles with the same three vertices and the same front; of each set, all but the first.
+/// Finds triangles with the same three vertices and the same front. All but the first of each set are reported.
 pub(super) fn duplicates(welded: &Welded) -> Finding {
     let from_smallest = |i: usize| {
         let [a, b, c] = welded.triangles[i];
@@ -28,7 +28,7 @@ pub(super) fn duplicates(welded: &Welded) -> Finding {
 /// An edge: the indices of its welded end points, the smaller one first.
 type Edge = [u32; 2];
 
-/// Defective edges, sorted by how triangles share them.
+/// Defective edges, by the way in which triangles share them.
 #[derive(Default)]
 pub(super) struct Edges {
     open: Vec<Edge>,
@@ -37,7 +37,7 @@ pub(super) struct Edges {
 }
 
 impl Edges {
-    /// Sorts the edges of all triangles.
+    /// Classifies the edges of all triangles.
     pub fn new(welded: &Welded) -> Self {
         let directed = welded.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
         let mut uses: Vec<_> = directed.map(|(a, b)| ([a.min(b), a.max(b)], a < b)).collect();
@@ -54,7 +54,7 @@ impl Edges {
         edges
     }
 
-    /// The findings about edges that follow from the number of their triangles.
+    /// Returns the findings about edges that follow from the number of their triangles.
     pub fn findings(&self, welded: &Welded) -> [Finding; 3] {
         let shown = |kind, edges: &[Edge]| {
             let ends = |edge: &Edge| Location::segment(edge.map(|w| welded.positions[w as usize]));
@@ -67,8 +67,8 @@ impl Edges {
         ]
     }
 
-    /// Vertices of open edges that lie inside another open edge. There two triangles meet one, and rounding opens
-    /// cracks through which light or background shines.
+    /// Finds vertices of open edges that lie inside another open edge. Two triangles meet a third there, and rounding
+    /// opens cracks through which light or background shines.
     pub fn t_junctions(&self, welded: &Welded, diagonal: f32) -> Finding {
         let tolerance = ON_EDGE * diagonal;
         let grid = Grid::new(&self.open, welded, tolerance);
@@ -90,7 +90,7 @@ impl Edges {
     }
 }
 
-/// Whether a point lies on an edge, but not at its ends.
+/// Returns true if a point lies on an edge, but not at its ends.
 fn lies_inside(point: Vec3, [a, b]: [Vec3; 2], tolerance: f32) -> bool {
     let along = (b - a).normalize_or_zero();
     let t = (point - a).dot(along);

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// Most locations that a finding keeps.
+/// Largest number of locations of a finding.
 const MAX_LOCATIONS: usize = 10_000;
 
 /// Kind of defect.
@@ -39,7 +39,7 @@ pub enum FindingKind {
 }
 
 impl FindingKind {
-    /// Description of what is counted, and advice to the user.
+    /// Returns a description of the defect, and advice to the user.
     fn words(self) -> (&'static str, &'static str) {
         match self {
             Self::Empty => ("there are no triangles", "check that the right scene was exported"),
@@ -127,7 +127,7 @@ impl Finding {
         self.locations = locations.take(MAX_LOCATIONS).collect();
     }
 
-    /// Message of one line: count and advice.
+    /// Returns the message of one line: count and advice.
     #[must_use]
     pub fn line(&self) -> String {
         let (what, advice) = self.kind.words();
@@ -148,13 +148,13 @@ pub struct Findings {
 }
 
 impl Findings {
-    /// Number of defects of a kind.
+    /// Returns the number of defects of a kind.
     #[must_use]
     pub fn count(&self, kind: FindingKind) -> usize {
         self.findings.iter().filter(|finding| finding.kind == kind).map(|finding| finding.count).sum()
     }
 
-    /// The messages, one line per finding.
+    /// Returns the messages, one line per finding.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
         self.findings.iter().map(Finding::line).collect()

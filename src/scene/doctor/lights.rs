@@ -6,10 +6,10 @@ use super::finding::{Finding, FindingKind, Location};
 use crate::base::ids::TriangleId;
 use crate::scene::{Light, LightKind, Scene};
 
-/// Most pairs of light and triangle that are tested; a scene with more pairs is not tested at all.
+/// Largest number of pairs of light and triangle that are tested; a scene with more pairs is not tested at all.
 const MAX_PAIRS: usize = 200_000_000;
 
-/// Lights whose range and cone contain no surface, and emissive materials that no triangle uses.
+/// Finds lights whose range and cone contain no surface, and emissive materials that no triangle uses.
 ///
 /// The test is conservative: a triangle is replaced by a sphere around it, so every reported light is without effect.
 pub(super) fn without_effect(scene: &Scene) -> Finding {

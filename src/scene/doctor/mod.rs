@@ -1,7 +1,7 @@
-//! The mesh doctor: lists what makes the light of a scene wrong or slow to compute, where it is, and what to do about
-//! it.
+//! The mesh doctor: lists the defects that make the light of a scene wrong or slow to compute, with their locations and
+//! advice.
 //!
-//! The doctor reports and repairs nothing.
+//! The doctor only reports; it repairs nothing.
 
 mod edges;
 mod finding;

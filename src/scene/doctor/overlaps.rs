@@ -7,16 +7,16 @@ use glam::{DVec2, DVec3};
 use super::finding::{Finding, FindingKind, Location};
 use super::weld::Welded;
 
-/// Distance within which two planes are the same, as a share of the scene's diagonal.
+/// Distance below which two planes count as the same, as a share of the scene's diagonal.
 const SAME_PLANE: f64 = 1e-6;
 
 /// Smallest overlap that counts, as a share of the smaller triangle's area; neighbours that only touch overlap less.
 const MIN_SHARE: f64 = 1e-3;
 
-/// Most pairs of triangles that are compared; bounds the time that a degenerate mesh takes.
+/// Largest number of pairs of triangles that are compared; bounds the time that a degenerate mesh takes.
 const MAX_PAIRS: usize = 20_000_000;
 
-/// Most cells of the search grid of one plane.
+/// Largest number of cells of the search grid of one plane.
 const MAX_CELLS: f64 = 2e6;
 
 /// A triangle in the coordinates of its plane.
@@ -27,7 +27,7 @@ struct Flat {
     high: DVec2,
 }
 
-/// Coplanar triangles that overlap; exact duplicates are a finding of their own.
+/// Finds coplanar triangles that overlap. Exact duplicates are a finding of their own.
 pub(super) fn overlaps(welded: &Welded, diagonal: f32) -> Finding {
     let tolerance = SAME_PLANE * f64::from(diagonal).max(f64::MIN_POSITIVE);
     let mut involved = Vec::new();
@@ -40,7 +40,8 @@ pub(super) fn overlaps(welded: &Welded, diagonal: f32) -> Finding {
     Finding::counted(FindingKind::CoplanarOverlap, involved.into_iter().map(|i| Location::triangle(welded.corners(i))))
 }
 
-/// Triangles by plane. Each is entered under two neighbouring distances, so that rounding separates no coplanar pair.
+/// Groups triangles by plane. Each is entered under two neighbouring distances, so rounding cannot separate coplanar
+/// triangles.
 fn planes(welded: &Welded, tolerance: f64) -> HashMap<([i32; 3], i64, bool), Vec<usize>> {
     let mut planes: HashMap<_, Vec<usize>> = HashMap::new();
     for i in 0..welded.triangles.len() {
@@ -56,7 +57,7 @@ fn planes(welded: &Welded, tolerance: f64) -> HashMap<([i32; 3], i64, bool), Vec
     planes
 }
 
-/// The one of a plane's two normals whose first non-zero component is positive.
+/// Returns that normal of a plane whose first non-zero component is positive.
 fn facing_up(normal: DVec3) -> DVec3 {
     let leading = normal.to_array().into_iter().find(|x| x.abs() > 1e-6).unwrap_or(1.0);
     if leading < 0.0 { -normal } else { normal }
@@ -99,7 +100,7 @@ fn overlaps_in_plane(welded: &Welded, triangles: &[usize], pairs_left: &mut usiz
     }
 }
 
-/// Triangles in two coordinates of the first one's plane, wound counter-clockwise.
+/// Projects triangles to two coordinates of the first one's plane, wound counter-clockwise.
 fn flatten(welded: &Welded, triangles: &[usize]) -> Vec<Flat> {
     let [a, b, c] = welded.corners(triangles[0]).map(|corner| corner.as_dvec3());
     let normal = (b - a).cross(c - a).normalize_or_zero();
@@ -131,7 +132,7 @@ fn boxes_meet(a: &Flat, b: &Flat) -> bool {
     a.low.cmplt(b.high).all() && b.low.cmplt(a.high).all()
 }
 
-/// Area of the intersection of two triangles: one is clipped at the sides of the other.
+/// Returns the area of the intersection of two triangles: one is clipped at the sides of the other.
 ///
 /// Source: Sutherland and Hodgman 1974, "Reentrant Polygon Clipping".
 fn common_area(subject: [DVec2; 3], clip: [DVec2; 3]) -> f64 {

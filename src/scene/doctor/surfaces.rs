@@ -8,7 +8,7 @@ use crate::scene::{Scene, Texture};
 /// Highest plausible mean reflectance: fresh snow reflects 0.9, white paint 0.85.
 const PLAUSIBLE_REFLECTANCE: f32 = 0.9;
 
-/// Used materials with a mean reflectance above 0.9, located at the triangles that use them.
+/// Finds used materials with a mean reflectance above 0.9, located at the triangles that use them.
 pub(super) fn bright_materials(scene: &Scene) -> Finding {
     let reflectances = mean_reflectances(scene);
     let is_bright = |t: &usize| reflectances[scene.triangles[*t].material.index()] > PLAUSIBLE_REFLECTANCE;
@@ -24,7 +24,7 @@ pub(super) fn bright_materials(scene: &Scene) -> Finding {
     finding
 }
 
-/// Textures whose image cannot be read.
+/// Finds textures whose image cannot be read.
 pub(super) fn missing_textures(scene: &Scene) -> Finding {
     let is_missing = |texture: &&Texture| texture.image.encoded.is_empty();
     Finding { count: scene.textures.iter().filter(is_missing).count(), ..Finding::new(FindingKind::MissingTexture) }

@@ -3,7 +3,7 @@ use glam::Vec3;
 use super::*;
 use crate::scene::{Light, Material, SceneBuilder};
 
-/// A scene of white diffuse triangles over these positions without shared vertices; normals follow the winding.
+/// Returns a scene of white diffuse triangles over these positions without shared vertices; normals follow the winding.
 fn soup(corners: &[[[f32; 3]; 3]]) -> Scene {
     let mut builder = SceneBuilder::default();
     let white = builder.material(Material { name: "white".to_owned(), ..Material::diffuse(Vec3::ONE) });
@@ -104,7 +104,7 @@ fn an_empty_scene_is_reported_as_empty_and_dark_only() {
     assert_eq!(found, [FindingKind::Empty, FindingKind::Dark]);
 }
 
-/// A spot 3 m above the triangle.
+/// Returns a spot 3 m above the triangle.
 fn spot(direction: Vec3, range: Option<f32>) -> Light {
     Light { range, ..Light::spot(Vec3::new(0.2, 0.2, 3.0), direction, [0.0, 0.3], Vec3::ONE) }
 }

@@ -1,21 +1,21 @@
-//! Triangles whose corners at exactly equal positions are one vertex, whatever their normals and texture coordinates.
+//! Welding: corners at exactly equal positions become one vertex, whatever their normals and texture coordinates.
 
 use glam::Vec3;
 
 use crate::scene::Scene;
 
-/// Welded front triangles of a scene; backs that a bake wrote are left out.
+/// Front triangles of a scene over welded vertices. Backs that a bake wrote are left out.
 pub(super) struct Welded {
-    /// Positions `[w]`, metres.
+    /// Positions of the welded vertices `[w]`, metres.
     pub positions: Vec<Vec3>,
-    /// Welded corners `[i]`.
+    /// Indices of the welded vertices at the corners of each triangle `[i]`.
     pub triangles: Vec<[u32; 3]>,
 }
 
 impl Welded {
-    /// Welds a scene.
+    /// Welds the vertices of a scene.
     pub fn new(scene: &Scene) -> Self {
-        // Adding zero makes -0 equal +0 in bits.
+        // Adding zero turns -0 into +0, so that equal positions have equal bits.
         let bits = |v: u32| (scene.vertices[v as usize].position + 0.0).to_array().map(f32::to_bits);
         let mut order: Vec<u32> = (0..scene.vertices.len() as u32).collect();
         order.sort_unstable_by_key(|&v| bits(v));
@@ -34,7 +34,7 @@ impl Welded {
         Self { positions, triangles }
     }
 
-    /// Corner positions of a welded triangle.
+    /// Returns the corner positions of a welded triangle.
     pub fn corners(&self, i: usize) -> [Vec3; 3] {
         self.triangles[i].map(|w| self.positions[w as usize])
     }

@@ -12,7 +12,7 @@ use super::file::document::Document;
 use super::node::instancing;
 use super::node::tree::PlacedNode;
 
-/// Most vertices or triangles of a scene: about 2 GB.
+/// Largest number of vertices or triangles of a scene: about 2 GB.
 const MAX_COUNT: u64 = 32_000_000;
 
 /// Checks that the scene, with all instances, stays within the limit.
@@ -35,7 +35,7 @@ pub(super) fn check(document: &Document<'_>, nodes: &[PlacedNode<'_>]) -> Result
     Ok(())
 }
 
-/// Upper bound of the number of vertices and of triangles.
+/// Returns an upper bound of the number of vertices and triangles of a primitive.
 fn predicted_size(document: &Document<'_>, primitive: &Primitive) -> u64 {
     let count = |index: Index<Accessor>| document.root.get(index).map_or(0, |accessor| accessor.count.0);
     let attribute = |semantic| primitive.attributes.get(&Checked::Valid(semantic)).copied();

@@ -8,7 +8,7 @@ use super::error::Cause;
 use super::node::tree::frame;
 use crate::scene::{Camera, Projection};
 
-/// The camera at its position in the world; scale and mirroring of its node are ignored.
+/// Returns the camera at its position in the world; scale and mirroring of its node are ignored.
 ///
 /// # Errors
 /// Returns an error if the camera has no valid projection.

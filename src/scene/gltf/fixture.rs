@@ -15,7 +15,7 @@ pub struct Fixture {
 }
 
 impl Fixture {
-    /// A file with one scene of one node with mesh 0, which has one primitive without attributes.
+    /// Returns a file with one scene of one node with mesh 0, which has one primitive without attributes.
     pub fn new() -> Self {
         let json = json!({
             "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -24,7 +24,7 @@ impl Fixture {
         Self { json, bytes: Vec::new() }
     }
 
-    /// The triangle (0,0,0), (1,0,0), (0,1,0) with normals along +Z.
+    /// Returns the triangle (0,0,0), (1,0,0), (0,1,0) with normals along +Z.
     pub fn triangle() -> Self {
         let mut fixture = Self::new();
         fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
@@ -88,7 +88,7 @@ impl Fixture {
         push(&mut self.json["textures"], json!({"source": source}))
     }
 
-    /// Bytes of a .gltf file with an embedded buffer.
+    /// Returns the bytes of a .gltf file with an embedded buffer.
     pub fn to_bytes(&self) -> Vec<u8> {
         let mut json = self.json.clone();
         let uri = format!("data:application/octet-stream;base64,{}", STANDARD.encode(&self.bytes));
@@ -106,7 +106,7 @@ impl Fixture {
         from_slice("fixture", &self.to_bytes())
     }
 
-    /// Message of the error that loading the file returns.
+    /// Returns the message of the error that loading the file returns.
     pub fn error(&self) -> String {
         self.try_load().expect_err("the file must be refused").to_string()
     }

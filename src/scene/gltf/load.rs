@@ -126,7 +126,7 @@ fn read_materials(document: &Document<'_>, scene: &mut Scene) -> Result<Vec<[u32
     Ok(reader.uv_sets)
 }
 
-/// Names of the file's light definitions: punctual lights first, then photometric files.
+/// Returns the names of the file's light definitions: punctual lights first, then photometric files.
 fn light_names(root: &Root) -> Vec<Option<String>> {
     let extension = root.extensions.as_ref().and_then(|extensions| extensions.khr_lights_punctual.as_ref());
     let punctual = extension.map_or(&[][..], |lights| &lights.lights).iter().map(|light| light.name.clone());

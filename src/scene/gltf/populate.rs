@@ -100,8 +100,8 @@ impl<'a> Population<'a> {
         }
     }
 
-    /// The filled scene with notes about what is ignored, and the index of the light definition of each of its lights
-    /// `[l]`.
+    /// Returns the filled scene with notes about what is ignored, and the index of the light definition of each of its
+    /// lights `[l]`.
     pub fn finish(mut self) -> (Scene, Vec<usize>) {
         if self.scene.lights.iter().any(|light| light.profile.is_some()) {
             let note = "bakes and rays use the photometric files of lights; --shadows treats these lights as uniform";

@@ -7,7 +7,7 @@ use gltf::json::{Index, Node, Root};
 use super::error::Cause;
 use super::file::document::Document;
 
-/// The file, and the scene named after `#`. A file whose name contains the `#` takes precedence.
+/// Returns the file, and the scene named after `#`. A file whose name contains the `#` takes precedence.
 pub(super) fn split_scene_name(path: &Path) -> (PathBuf, Option<String>) {
     if let Some((file, scene)) = path.to_str().filter(|_| !path.exists()).and_then(|text| text.rsplit_once('#')) {
         return (PathBuf::from(file), Some(scene.to_owned()));
@@ -15,8 +15,8 @@ pub(super) fn split_scene_name(path: &Path) -> (PathBuf, Option<String>) {
     (path.to_owned(), None)
 }
 
-/// Root nodes of the wanted scene, else of the default scene, else of the first one; without scenes all nodes that have
-/// no parent.
+/// Returns the root nodes of the wanted scene, else of the default scene, else of the first one; without scenes all
+/// nodes that have no parent.
 pub(super) fn root_nodes(document: &Document<'_>, wanted: Option<&str>) -> Result<Vec<Index<Node>>, Cause> {
     let root = &document.root;
     let scene = match (wanted, root.scene) {
@@ -27,7 +27,8 @@ pub(super) fn root_nodes(document: &Document<'_>, wanted: Option<&str>) -> Resul
     Ok(scene.map_or_else(|| nodes_without_parent(root), |scene| scene.nodes.clone()))
 }
 
-/// Index of the wanted scene. A name takes precedence over an index, so that a scene named "1" can be selected.
+/// Returns the index of the wanted scene. A name takes precedence over an index, so that a scene named "1" can be
+/// selected.
 fn scene_index(root: &Root, wanted: &str) -> Result<usize, Cause> {
     let by_name = root.scenes.iter().position(|scene| scene.name.as_deref() == Some(wanted));
     let by_index = || wanted.parse().ok().filter(|&index: &usize| index < root.scenes.len());

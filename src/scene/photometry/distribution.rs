@@ -8,9 +8,9 @@ use glam::{Quat, Vec3};
 /// Luminous intensity by direction, candela.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Photometry {
-    /// Angles from the axis `[v]`, degrees, ascending.
+    /// Vertical angles, from the axis `[v]`, degrees, ascending.
     pub(super) vertical: Vec<f32>,
-    /// Angles round the axis `[h]`, degrees, ascending.
+    /// Horizontal angles, round the axis `[h]`, degrees, ascending.
     pub(super) horizontal: Vec<f32>,
     /// Intensities `[h][v]`.
     pub(super) candela: Vec<f32>,
@@ -30,7 +30,7 @@ pub struct Profile {
 }
 
 impl Profile {
-    /// Intensity along the unit vector `direction`, away from the light, relative to the largest intensity.
+    /// Returns the intensity along the unit vector `direction`, away from the light, relative to the largest intensity.
     #[must_use]
     pub fn share(&self, direction: Vec3) -> f32 {
         let local = self.world_from_light.inverse() * direction;
@@ -39,9 +39,9 @@ impl Profile {
 }
 
 impl Photometry {
-    /// Luminous intensity along a unit vector in the luminaire's space, candela, interpolated linearly between the
-    /// table's angles. Vertical angles start at -Z, horizontal ones at +X and increase towards +Y (EXT_lights_ies). The
-    /// intensity outside the vertical angles of the table is zero.
+    /// Returns the luminous intensity along a unit vector in the luminaire's space, candela, interpolated linearly
+    /// between the table's angles. Vertical angles start at -Z, horizontal ones at +X and increase towards +Y
+    /// (EXT_lights_ies). The intensity outside the vertical angles of the table is zero.
     #[must_use]
     pub fn intensity(&self, direction: Vec3) -> f32 {
         let vertical = (-direction.z).clamp(-1.0, 1.0).acos().to_degrees();
@@ -56,14 +56,14 @@ impl Photometry {
         along(plane) + turn * (along(next) - along(plane))
     }
 
-    /// Maps a horizontal angle into the part of the circle that the table covers; the other parts mirror it.
+    /// Maps a horizontal angle into the part of the circle that the table covers. The other parts are mirror images.
     fn folded(&self, degrees: f32) -> f32 {
         let degrees = degrees.rem_euclid(360.0);
         let half = if degrees > 180.0 { 360.0 - degrees } else { degrees };
         let (first, last) = (self.horizontal[0], self.horizontal[self.horizontal.len() - 1]);
         match (first, last) {
             _ if first == last => first,
-            // The planes from 90 to 270 degrees cover the side of -X.
+            // A table from 90 to 270 degrees covers the half towards -X.
             (90.0, 270.0) if !(90.0..=270.0).contains(&degrees) => (180.0 - degrees).rem_euclid(360.0),
             (0.0, 90.0) if half > 90.0 => 180.0 - half,
             (0.0, 90.0 | 180.0) => half,
@@ -71,20 +71,20 @@ impl Photometry {
         }
     }
 
-    /// The largest intensity, candela.
+    /// Returns the largest intensity, candela.
     #[must_use]
     pub fn peak(&self) -> f32 {
         self.peak
     }
 
-    /// Bytes of the photometric file.
+    /// Returns the bytes of the photometric file.
     #[must_use]
     pub fn file(&self) -> &[u8] {
         &self.file
     }
 
-    /// Luminous flux, lumen: the integral of the intensity over the sphere by the midpoint rule, in steps of 2 and 4
-    /// degrees.
+    /// Returns the luminous flux, lumen: the integral of the intensity over the sphere by the midpoint rule, in steps
+    /// of 2 and 4 degrees.
     #[must_use]
     pub fn flux(&self) -> f32 {
         const STEPS: usize = 90;
@@ -100,10 +100,10 @@ impl Photometry {
     }
 }
 
-/// Index of the last of the ascending `angles` at or below `angle`, and the position between it and the next one, 0..1;
-/// `None` outside their range.
+/// Returns the index of the last of the ascending `angles` at or below `angle`, and the position between it and the
+/// next one, 0..1; `None` outside their range.
 fn bracket(angles: &[f32], angle: f32) -> Option<(usize, f32)> {
-    /// Rounding at the ends of the table, degrees.
+    /// Tolerance for rounding at the ends of the table, degrees.
     const SLACK: f32 = 1e-3;
     if angle < angles[0] - SLACK || angle > angles[angles.len() - 1] + SLACK {
         return None;
@@ -119,7 +119,7 @@ mod tests {
     use super::super::parse;
     use super::*;
 
-    /// A file with these angles and candelas.
+    /// Returns a file with these angles and candelas.
     fn file(vertical: &str, horizontal: &str, candela: &str) -> Photometry {
         let count = |list: &str| list.split_whitespace().count();
         let counts = format!("{} {}", count(vertical), count(horizontal));
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_table_of_a_part_of_the_circle_is_mirrored_to_the_rest() {
-        // Candela at 90 degrees from the axis are the horizontal angle.
+        // At 90 degrees from the axis, the candelas equal the horizontal angle.
         let quarter = file("0 90", "0 90", "0 0 0 90");
         let half = file("0 90", "0 90 180", "0 0 0 90 0 180");
         let side = file("0 90", "90 180 270", "0 90 0 180 0 270");

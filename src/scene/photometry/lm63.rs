@@ -1,17 +1,18 @@
-//! Parser of LM-63 files of the editions 1986 to 2019; type C photometry.
+//! Parser of photometric files (IES LM-63, editions 1986 to 2019) with type C photometry.
 
 use super::distribution::Photometry;
 
-/// Most intensities of a table.
+/// Largest number of intensities of a table.
 const MAX_TABLE: usize = 1 << 20;
 
-/// Numbers between the TILT data and the angles.
+/// Number of values between the TILT data and the angles.
 const HEADER: usize = 13;
 
-/// Reads the table of a file.
+/// Reads the intensities from the bytes of a file.
 ///
 /// # Errors
-/// Returns an error if the file is not LM-63, not type C, or has no positive intensity; it is one sentence.
+/// Returns an error if the file is not LM-63, is incomplete or invalid, is not type C, or has no positive intensity.
+/// The error is one sentence.
 pub fn parse(bytes: &[u8]) -> Result<Photometry, String> {
     let text = String::from_utf8_lossy(bytes);
     let (_, after) =
@@ -24,7 +25,7 @@ pub fn parse(bytes: &[u8]) -> Result<Photometry, String> {
         number.ok_or_else(|| format!("{:?} is not a number", word.chars().take(20).collect::<String>()))
     };
     if tilt.trim() == "INCLUDE" {
-        // The lamp's position, and pairs of angles and factors for the flux of a tilted lamp, which are not used.
+        // Skips the lamp's position, and the pairs of angle and flux factor of a tilted lamp.
         next()?;
         let pairs = count(next()?)?;
         (0..2 * pairs).try_for_each(|_| next().map(drop))?;
@@ -49,10 +50,14 @@ pub fn parse(bytes: &[u8]) -> Result<Photometry, String> {
         return Err("it is cut off".to_owned());
     };
     if kind != 1.0 {
-        return Err(format!(
-            "its photometry is of type {}; only type C is supported",
-            if kind == 2.0 { "B" } else { "A" }
-        ));
+        let name = if kind == 2.0 {
+            "B".to_owned()
+        } else if kind == 3.0 {
+            "A".to_owned()
+        } else {
+            kind.to_string()
+        };
+        return Err(format!("its photometry is of type {name}; only type C is supported"));
     }
     let (num_vertical, num_horizontal) = (count(num_vertical)?, count(num_horizontal)?);
     if num_vertical == 0 || num_horizontal == 0 || num_vertical.saturating_mul(num_horizontal) > MAX_TABLE {

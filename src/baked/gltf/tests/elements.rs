@@ -10,7 +10,7 @@ use crate::base::ids::TriangleId;
 use crate::patch::{MeshSettings, PatchMesh, Splits};
 use crate::scene::{Scene, builtin};
 
-/// The elements of the Cornell box, whose blocks are double-sided, finer round one corner.
+/// Returns the elements of the Cornell box, whose blocks are double-sided, finer round one corner.
 fn fresh() -> BakedScene {
     let mut scene = builtin::cornell();
     scene.materials[0].double_sided = true;
@@ -39,7 +39,8 @@ fn bits(scene: &Scene, corners: [u32; 3]) -> [[u32; 3]; 3] {
     corners.map(|v| (scene.vertices[v as usize].position + Vec3::ZERO).to_array().map(f32::to_bits))
 }
 
-/// The triangles of the coarse mesh, with the sizes of their tiles, in an order that does not depend on the file.
+/// Returns the triangles of the coarse mesh, with the sizes of their tiles, in an order that does not depend on the
+/// file.
 fn coarse(baked: &BakedScene, trees: Option<&BisectionTrees>) -> Vec<([[u32; 3]; 3], Option<u32>)> {
     let coarse = CoarseMesh::new(&baked.scene, trees, 8192).expect("far fewer triangles");
     let tiles = coarse.tiles.iter().map(|tile| Some(tile.side)).chain(std::iter::repeat(None));
@@ -53,7 +54,7 @@ fn num_elements(trees: &str) -> usize {
     BisectionTrees::parse(trees).expect("trees").num_elements()
 }
 
-/// Corners of all fronts and of their backs, in an order that does not depend on the file.
+/// Returns the corners of all fronts and of their backs, in an order that does not depend on the file.
 fn pairs(scene: &Scene) -> Vec<[[[u32; 3]; 3]; 2]> {
     let corners = |t: TriangleId| bits(scene, scene.triangles[t.index()].vertices);
     let pair = |front| Some([corners(front), corners(scene.sides.back_of(front)?.triangle)]);

@@ -7,7 +7,7 @@ use glam::{Quat, Vec3};
 use super::*;
 use crate::scene::{NamedNode, Profile, Transform, normal_of, photometry};
 
-/// A tree of nodes round the squares of [`scene`]: a turned house, a mirrored room in it, the squares, a lamp.
+/// Returns a tree of nodes round the squares of [`scene`]: a turned house, a mirrored room in it, the squares, a lamp.
 fn tree() -> Vec<NamedNode> {
     let node = |name: &str, parent, transform| NamedNode { name: name.into(), parent, transform, ..Default::default() };
     let turned = Transform::Parts { translation: [3.0, 0.1, -7.0], rotation: [0.0, 0.6, 0.0, 0.8], scale: [2.0; 3] };

@@ -26,7 +26,7 @@ pub(super) fn sculptures(builder: &mut Builder, finishes: &Finishes) {
     builder.place("vase", finishes.clay, vase.moved(Vec3::new(9.5, DAIS_HEIGHT, 6.4)));
 }
 
-/// An upright ring on a small foot, rotated slightly out of the direction of the wall.
+/// Returns an upright ring on a small foot, rotated slightly out of the direction of the wall.
 fn standing_torus() -> Shape {
     let upright = torus(0.30, 0.085, 24, 10).turned(Quat::from_rotation_x(std::f32::consts::FRAC_PI_2));
     let foot = cuboid(Vec3::new(-0.12, 0.0, -0.08), Vec3::new(0.12, 0.06, 0.08), &[Side::Below]);
@@ -55,13 +55,13 @@ pub(super) fn pictures(builder: &mut Builder, finishes: &Finishes) {
     }
 }
 
-/// A picture of this size before the wall at z = 0.
+/// Returns a picture of this size before the wall at z = 0.
 fn canvas(size: Vec2) -> Shape {
     let corners = corners(size, 0.02);
     polygon(&corners).with_uv(|at| Vec2::new(at.x / size.x + 0.5, 0.5 - at.y / size.y))
 }
 
-/// A mitred frame round a picture: inner side, front, outer side.
+/// Returns a mitred frame round a picture: inner side, front, outer side.
 fn frame(size: Vec2) -> Shape {
     let wide = size + 0.10;
     let rims = [corners(size, 0.02), corners(size, 0.05), corners(wide, 0.05), corners(wide, 0.0)];
@@ -73,7 +73,7 @@ fn frame(size: Vec2) -> Shape {
         .collect()
 }
 
-/// Corners of an upright rectangle about the origin, counter-clockwise as seen from the south.
+/// Returns the corners of an upright rectangle about the origin, counter-clockwise as seen from the south.
 fn corners(size: Vec2, z: f32) -> [Vec3; 4] {
     [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)].map(|(x, y)| Vec3::new(x * size.x, y * size.y, z))
 }

@@ -59,7 +59,7 @@ impl Finishes {
     }
 }
 
-/// The shape with texture coordinates of planks along X.
+/// Returns the shape with texture coordinates of planks along X.
 pub(super) fn with_planks(shape: Shape) -> Shape {
     shape.with_uv(|at| Vec2::new(at.z, at.x) / PLANKS_SIZE)
 }

@@ -20,7 +20,7 @@ const PENDANTS: [[f32; 2]; 2] = [[-4.6, 3.0], [-1.8, 1.5]];
 const GLOBE_RADIUS: f32 = 0.09;
 const GLOBE_HEIGHT: f32 = 2.2;
 
-/// The sun, and the window shafts through which sunlight and skylight enter.
+/// Adds the sun, and the window shafts through which sunlight and skylight enter.
 ///
 /// A shaft is parallel to the sunlight, so it casts no shadow of its own. Its lower side emits skylight and hides the
 /// void outside.
@@ -40,7 +40,8 @@ pub(super) fn windows(builder: &mut Builder, finishes: &Finishes) {
     builder.light("sun", LightKind::Directional { direction: SUN.normalize() }, SUN_LUX, "sun");
 }
 
-/// Two pendant lamps: an opal globe under a shade, and a point light below it for the light that it emits downward.
+/// Adds two pendant lamps: an opal globe under a shade, and a point light below it for the light that it emits
+/// downward.
 pub(super) fn lamps(builder: &mut Builder, finishes: &Finishes) {
     for ([x, z], number) in PENDANTS.into_iter().zip(1..) {
         let centre = Vec3::new(x, GLOBE_HEIGHT, z);
@@ -55,14 +56,14 @@ pub(super) fn lamps(builder: &mut Builder, finishes: &Finishes) {
     }
 }
 
-/// A thin, closed bell around a globe at the origin.
+/// Returns a thin, closed bell around a globe at the origin.
 fn shade() -> Shape {
     let outside = [(0.30, -0.02), (0.16, 0.14), (0.0, 0.20)].map(Vec2::from);
     let inside = [(0.0, 0.19), (0.155, 0.13), (0.29, -0.02), (0.30, -0.02)].map(Vec2::from);
     lathe(&outside, 16).join(lathe(&inside, 16))
 }
 
-/// The spot on the sphere before the red wall, in its housing under the ceiling.
+/// Adds the spot that lights the sphere before the red wall, in its housing under the ceiling.
 pub(super) fn spot(builder: &mut Builder, finishes: &Finishes) {
     let position = Vec3::new(-3.9, 2.85, 2.6);
     let direction = (Vec3::new(-5.8, 1.3, 1.2) - position).normalize();

@@ -15,7 +15,7 @@ use super::builder::Builder;
 use crate::scene::Scene;
 use finishes::Finishes;
 
-/// The built-in gallery: about 17 m x 7 m, five light groups, four cameras at eye height.
+/// Returns the built-in gallery: about 17 m x 7 m, five light groups, four cameras at eye height.
 #[must_use]
 pub fn gallery() -> Scene {
     let mut builder = Builder::new("gallery");

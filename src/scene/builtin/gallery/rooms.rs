@@ -9,25 +9,25 @@ use super::super::shape::Side;
 use super::finishes::{Finishes, with_planks};
 use crate::base::ids::MaterialId;
 
-/// Ceiling of the hall above its floor, metres.
+/// Height of the ceiling of the hall above its floor, metres.
 pub(super) const HALL_HEIGHT: f32 = 4.4;
-/// Ceiling of the red room above its floor, metres.
+/// Height of the ceiling of the red room above its floor, metres.
 pub(super) const RED_ROOM_HEIGHT: f32 = 3.2;
-/// Position of the hall's window wall.
+/// Z coordinate of the wall with the windows, metres.
 pub(super) const WINDOW_WALL_Z: f32 = 7.2;
-/// West and east edges of the windows.
+/// X coordinates of the west and east edges of each window, metres.
 pub(super) const WINDOWS_X: [[f32; 2]; 3] = [[0.9, 2.1], [2.7, 3.9], [4.5, 5.7]];
-/// Sill and head of the windows.
+/// Y coordinates of the lower and upper edges of the windows, metres.
 pub(super) const WINDOWS_Y: [f32; 2] = [2.4, 3.6];
-/// Height of the dais, and of the pedestals on the lower floor, metres.
+/// Height of the dais and of the pedestals, metres.
 pub(super) const DAIS_HEIGHT: f32 = 6.0 * RISER;
-/// Names of the sculptures, and (x, z) of the low corner of their pedestals, which are [`PEDESTAL`] wide.
+/// Names of the sculptures, and minimum (x, z) corners of their pedestals, metres.
 pub(super) const PEDESTALS: [(&str, [f32; 2]); 3] =
     [("torus", [5.7, 0.9]), ("sphere", [-6.1, 0.9]), ("prism", [-3.4, 4.5])];
-/// Side of a pedestal, metres.
+/// Width and depth of a pedestal, metres.
 pub(super) const PEDESTAL: f32 = 0.6;
 
-/// Height of the doorway, which is that of the window sills, so that they share a grid line.
+/// Height of the doorway, metres. It equals that of the window sills, so that both share a grid line.
 const DOOR_HEIGHT: f32 = WINDOWS_Y[0];
 const RISER: f32 = 0.17;
 const TREAD: f32 = 0.3;
@@ -36,7 +36,7 @@ const DAIS_X: [f32; 2] = [8.1, 10.2];
 const COLUMNS_X: [f32; 4] = [0.6, 2.4, 4.2, 6.0];
 const COLUMNS_Z: f32 = 5.4;
 
-/// Adds everything made of straight walls as one carving: closed, with all edges shared.
+/// Adds rooms, steps, dais and pedestals as one carving: closed, with all edges shared.
 pub(super) fn build(builder: &mut Builder, finishes: &Finishes) {
     let mut carving = Carving::default();
     rooms(&mut carving, finishes);

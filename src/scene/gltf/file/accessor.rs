@@ -12,7 +12,8 @@ use gltf::json::{self, Index};
 use super::document::Document;
 use crate::scene::gltf::error::Cause;
 
-/// Most elements of an accessor without a buffer view, whose values are zero except for sparse substitutes.
+/// Largest number of elements of an accessor without a buffer view, whose values are zero except for sparse
+/// substitutes.
 const MAX_VIRTUAL_COUNT: usize = 1 << 20;
 
 /// An accessor with a checked layout: every row below `count` lies inside its bytes.
@@ -55,7 +56,7 @@ impl<'a> Rows<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Checks the layout of accessor `index`; `user` names the item that refers to it.
+    /// Checks the layout of accessor `index`. `user` describes the item with the reference, for the error message.
     ///
     /// # Errors
     /// Returns an error if the accessor does not exist or does not fit its buffer view.
@@ -63,7 +64,7 @@ impl<'a> Reader<'a> {
         Self::over(document, index, None, user)
     }
 
-    /// As [`Self::new`], but reads the `decoded` bytes, if there are any, instead of those of the file.
+    /// Does the same as [`Self::new`], but reads the `decoded` bytes, if there are any, instead of those of the file.
     ///
     /// # Errors
     /// Returns an error as [`Self::new`] does.
@@ -109,29 +110,29 @@ impl<'a> Reader<'a> {
         Ok(reader)
     }
 
-    /// Number of elements.
+    /// Returns the number of elements.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// Components of an element.
+    /// Returns the number of components of an element.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// Whether its numbers are integers.
+    /// Returns true if its numbers are integers.
     pub fn is_integer(&self) -> bool {
         self.component != ComponentType::F32
     }
 
-    /// The same accessor with integers read as fractions of their largest value, even if the file does not mark them
-    /// so.
+    /// Returns the same accessor with integers read as fractions of their largest value, even if the file does not mark
+    /// them so.
     pub fn into_fractions(mut self) -> Self {
         self.normalized = true;
         self
     }
 
-    /// Elements of the given rows (ascending) as vectors of `N` numbers.
+    /// Returns the elements of the given rows (ascending) as vectors of `N` numbers.
     ///
     /// # Errors
     /// Returns an error if the elements do not have `N` components, a row is out of range, or a number is not finite.
@@ -151,7 +152,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// All elements as vertex indices.
+    /// Returns all elements as vertex indices.
     ///
     /// # Errors
     /// Returns an error if the elements are not single unsigned integers.
@@ -209,7 +210,7 @@ impl<'a> Reader<'a> {
             .ok_or_else(|| self.failed(format!("its count, offset or stride does not fit buffer view {view}")))
     }
 
-    /// Bytes of one element.
+    /// Returns the size of one element, bytes.
     fn size(&self) -> usize {
         self.width * self.component.size()
     }

@@ -1,4 +1,5 @@
-//! A parsed file with its buffers. [`Document::find`] checks every index of the file before it is used.
+//! A parsed file with its buffers. [`Document::find`] checks indices before they are used. Skins (`mesh/skin.rs`) and
+//! photometric profiles (`light/photometric.rs`) are untyped JSON, and their indices are checked there.
 
 use std::borrow::Cow;
 use std::path::Path;
@@ -13,14 +14,15 @@ use super::container::{self, Parts};
 use super::{meshopt, resource};
 use crate::scene::gltf::error::Cause;
 
-/// Most bytes of all external buffers together; many buffers may name the same file.
+/// Largest number of bytes of all external buffers together. It is needed because many buffers may refer to the same
+/// file.
 const MAX_EXTERNAL_BYTES: u64 = 4 << 30;
 
 /// Typed JSON and the bytes of its buffers.
 pub(crate) struct Document<'a> {
     /// The JSON; its indices are not validated, so items are looked up through [`Document::find`].
     pub root: Root,
-    /// Folder of external files; `None` if the file is only bytes.
+    /// Folder of external files; `None` if the file was given as bytes.
     pub folder: Option<&'a Path>,
     /// Skins as untyped JSON.
     pub skins: Vec<Value>,
@@ -46,7 +48,7 @@ impl<'a> Document<'a> {
         Ok(Self { root, folder, skins, buffers, decompressed })
     }
 
-    /// The item at `index`; `user` names the item that refers to it, for the message.
+    /// Returns the item at `index`. `user` describes the item with the reference, for the error message.
     ///
     /// # Errors
     /// Returns an error if no such item exists.
@@ -57,7 +59,7 @@ impl<'a> Document<'a> {
         self.root.get(index).ok_or_else(|| Cause::DanglingIndex { user: user(), kind, index: index.value() })
     }
 
-    /// Bytes of a buffer view, and its stride if it states one.
+    /// Returns the bytes of a buffer view, and its stride if it states one.
     ///
     /// # Errors
     /// Returns an error if the view or its buffer does not exist, cannot be read or decompressed, or is too short.
@@ -81,7 +83,7 @@ impl<'a> Document<'a> {
         stream.decode(bytes).map_err(failed)
     }
 
-    /// The range of a buffer to which `view` refers.
+    /// Returns the range of a buffer to which `view` refers.
     fn slice(
         &self,
         buffer: Index<gltf::json::Buffer>,

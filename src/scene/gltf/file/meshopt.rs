@@ -9,14 +9,14 @@ use serde_json::Value;
 /// Names of the extension. Both have the same JSON; the second one adds a colour filter and a second vertex format.
 pub(crate) const EXTENSIONS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshopt_compression"];
 
-/// Most bytes that one byte of a stream can decode to: two bits of the shortest vertex block encode 256 zero bytes of
-/// one channel. A stream that claims more is refused before memory is allocated.
+/// Largest number of bytes that one byte of a stream can decode to: two bits of the shortest vertex block encode 256
+/// zero bytes of one channel. A stream that claims more is refused before memory is allocated.
 const MAX_EXPANSION: usize = 1024;
 
 /// Largest vertex size, bytes; a vertex size is a multiple of four.
 const MAX_STRIDE: usize = 256;
 
-/// The extension of a buffer view, if it has one.
+/// Returns the extension of a buffer view, if it has one.
 pub(crate) fn extension_of(view: &View) -> Option<&Value> {
     let extensions = view.extensions.as_ref()?;
     EXTENSIONS.iter().find_map(|name| extensions.others.get(*name))

@@ -10,8 +10,8 @@ use percent_encoding::percent_decode_str;
 /// Largest file that is read, bytes.
 pub(crate) const MAX_FILE_BYTES: u64 = 4 << 30;
 
-/// Bytes of `uri`; their number is subtracted from the budget `left`. `folder` is the folder of the scene; `None` if
-/// the scene is only bytes.
+/// Returns the bytes of `uri`; their number is subtracted from the budget `left`. `folder` is the folder of the scene;
+/// `None` if the scene is only bytes.
 ///
 /// # Errors
 /// Returns an error if the URI is refused or the file cannot be read. It is one sentence with the URI, which the caller
@@ -54,7 +54,7 @@ fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
         .map_err(|error| format!("its data: URI is not valid base64: {error}"))
 }
 
-/// The relative path that a URI names; refused if it could lead out of the scene's folder.
+/// Returns the relative path that a URI names; refused if it could lead out of the scene's folder.
 fn relative_path(uri: &str) -> Result<PathBuf, String> {
     let decoded = percent_decode_str(uri).decode_utf8().map_err(|_| format!("{uri:?} is not UTF-8"))?;
     // A colon or backslash means another scheme, a drive, or a Windows path.

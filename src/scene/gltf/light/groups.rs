@@ -8,7 +8,7 @@ use crate::base::colour::luminance;
 use crate::base::ids::GroupId;
 use crate::scene::{Light, LightKind, Material, Scene, area_of};
 
-/// Most groups of a scene; each group costs memory at every vertex.
+/// Largest number of groups of a scene; each group costs memory at every vertex.
 pub(crate) const MAX_GROUPS: usize = 8;
 
 /// Name of the group of all sources that have no group of their own.
@@ -51,8 +51,8 @@ pub(crate) fn assign(scene: &mut Scene, definitions: &[usize], names: &[Option<S
     }
 }
 
-/// The sources with a group of their own: all of them if there are enough groups, else those of the largest flux, in
-/// file order; the others share the last group.
+/// Returns the sources with a group of their own: all of them if there are enough groups, else those of the largest
+/// flux, in file order; the others share the last group.
 fn sources_with_own_group(flux: &BTreeMap<Source, f32>) -> Vec<Source> {
     let mut sources: Vec<_> = flux.keys().copied().collect();
     if sources.len() > MAX_GROUPS {
@@ -63,7 +63,7 @@ fn sources_with_own_group(flux: &BTreeMap<Source, f32>) -> Vec<Source> {
     sources
 }
 
-/// Luminous flux of each source, lumen, without the effect of textures.
+/// Returns the luminous flux of each source, lumen, without the effect of textures.
 ///
 /// Point light: 4 pi I. Spot: 2 pi (1 - cos(outer angle)) I. Directional: E times the area of the disc around the
 /// scene. Emissive material: pi L A, twice for a double-sided one.
@@ -102,7 +102,7 @@ fn exitance(material: &Material) -> f32 {
     sides * PI * luminance(material.emission)
 }
 
-/// Name of a light definition, or of its first light in the scene if the definition has none.
+/// Returns the name of a light definition, or of its first light in the scene if the definition has none.
 fn light_name(scene: &Scene, definitions: &[usize], names: &[Option<String>], definition: usize) -> String {
     if let Some(Some(name)) = names.get(definition).filter(|name| name.as_ref().is_some_and(|n| !n.trim().is_empty())) {
         return name.clone();

@@ -57,7 +57,7 @@ pub(crate) struct Profiles<'a> {
     read: HashMap<usize, Result<Arc<Photometry>, String>>,
 }
 
-/// The photometric light of a node; `None` if the node has none.
+/// Returns the photometric light of a node; `None` if the node has none.
 ///
 /// # Errors
 /// Returns an error if the extension is invalid.
@@ -85,7 +85,7 @@ impl<'a> Profiles<'a> {
         Self { document, read: HashMap::new() }
     }
 
-    /// The distribution in photometric file `index`.
+    /// Returns the distribution in photometric file `index`.
     ///
     /// # Errors
     /// Returns an error if the file cannot be read; it is one sentence for the caller to embed in a note.
@@ -110,8 +110,8 @@ fn read(document: &Document<'_>, definition: &Value) -> Result<Arc<Photometry>, 
     table.map(Arc::new)
 }
 
-/// The light at its position in the world, with the intensities of a photometric file times `factor`, in group 0 until
-/// groups are assigned; `None` if its intensity is zero.
+/// Returns the light at its position in the world, with the intensities of a photometric file times `factor`, in group
+/// 0 until groups are assigned; `None` if its intensity is zero.
 ///
 /// # Errors
 /// Returns an error if the intensity is not plausible.
@@ -144,7 +144,7 @@ mod tests {
     /// Uniform in the lower hemisphere, half as strong in the upper one.
     const TABLE: &str = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 4 1 1 2 0 0 0\n1 1 10\n0 90 90.01 180\n0\n40 40 20 20\n";
 
-    /// A node rotated so that its -Z is -Y, with a light of this table.
+    /// Returns a node rotated so that its -Z is -Y, with a light of this table.
     fn scene(table: &str, node_light: Value) -> Scene {
         let mut fixture = Fixture::triangle();
         let view = fixture.view(table.as_bytes());

@@ -13,7 +13,8 @@ pub(crate) use gltf::json::extensions::scene::khr_lights_punctual::Light as Ligh
 /// Highest plausible intensity, candela or lux.
 pub(crate) const MAX_INTENSITY: f32 = 1e15;
 
-/// The light at its position in the world, in group 0 until groups are assigned; `None` if its intensity is zero.
+/// Returns the light at its position in the world, in group 0 until groups are assigned; `None` if its intensity is
+/// zero.
 ///
 /// # Errors
 /// Returns an error if the type is unknown or the intensity is not plausible.
@@ -44,7 +45,7 @@ pub(crate) fn placed(
     Ok(Some(Light { name: name.to_owned(), range, ..Light::new(kind, intensity) }))
 }
 
-/// A spot light; angles are clamped to the limits of the extension.
+/// Returns a spot light; angles are clamped to the limits of the extension.
 fn spot(definition: &LightDefinition, position: Vec3, direction: Vec3) -> LightKind {
     let default_outer = std::f32::consts::FRAC_PI_4;
     let (inner, outer) =

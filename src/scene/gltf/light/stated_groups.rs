@@ -73,7 +73,7 @@ mod tests {
     use super::*;
     use crate::scene::{Light, Material};
 
-    /// A scene with one light and one emissive material of this file.
+    /// Returns a scene with one light and one emissive material of this file.
     fn assigned(json: &str) -> Option<Scene> {
         let light = Light::point(Vec3::ZERO, Vec3::ONE);
         let glowing = Material { emission: Vec3::ONE, ..Material::default() };

@@ -13,9 +13,9 @@ pub(crate) struct OriginalMaterial {
     pub base_colour: [f32; 4],
     /// Both faces reflect; the file has the back faces as triangles of their own.
     pub double_sided: bool,
-    /// Whether the original material is unlit.
+    /// True if the original material is unlit.
     pub unlit: bool,
-    /// Whether the file has the emissive texture in place of the base colour texture.
+    /// True if the file has the emissive texture in place of the base colour texture.
     #[serde(default)]
     pub shows_emission: bool,
     /// Base colour texture, if the emissive one is in its place.
@@ -23,7 +23,7 @@ pub(crate) struct OriginalMaterial {
     pub base_colour_texture: Option<json::texture::Info>,
 }
 
-/// The original of a baked material; `None` for a material that no bake has changed.
+/// Returns the original of a baked material; `None` for a material that no bake has changed.
 pub(crate) fn of(material: &json::Material) -> Option<OriginalMaterial> {
     let extras: serde_json::Value = serde_json::from_str(material.extras.as_ref()?.get()).ok()?;
     OriginalMaterial::deserialize(extras.get("paint")?).ok()

@@ -135,7 +135,7 @@ impl<'a> MaterialReader<'a> {
         Ok(())
     }
 
-    /// The normal texture with its scale. Its texture transform is untyped in the gltf crate's model.
+    /// Returns the normal texture with its scale. Its texture transform is untyped in the gltf crate's model.
     fn normal_texture(
         &mut self,
         name: &str,
@@ -165,8 +165,8 @@ impl<'a> MaterialReader<'a> {
         Ok(Some(TextureSlot { texture, uv_set: vertex_set, transform }))
     }
 
-    /// Index of the vertices' coordinate set, 0 or 1, that holds the file's set `uv_set`: sets 0 and 1 keep their index
-    /// if it is free. `None` if both hold other sets.
+    /// Returns the index of the vertices' coordinate set, 0 or 1, that holds the file's set `uv_set`: sets 0 and 1 keep
+    /// their index if it is free. `None` if both hold other sets.
     fn vertex_set_of(&mut self, uv_set: u32) -> Option<usize> {
         let preferred = usize::from(uv_set > 0);
         let is_free = |set: &usize| self.vertex_sets[*set].is_none_or(|taken| taken == uv_set);

@@ -32,14 +32,14 @@ struct Mapping {
     variants: Vec<usize>,
 }
 
-/// Names of the variants of a file, in its order; empty if the extension is invalid.
+/// Returns the names of the variants of a file, in its order; empty if the extension is invalid.
 pub(crate) fn names(root: &Root) -> Vec<String> {
     let extension = root.extensions.as_ref().and_then(|extensions| extensions.others.get(EXTENSION));
     let variants = extension.and_then(|extension| Variants::deserialize(extension).ok());
     variants.map_or_else(Vec::new, |list| list.variants.into_iter().map(|variant| variant.name).collect())
 }
 
-/// Index of the variant of this name.
+/// Returns the index of the variant of this name.
 ///
 /// # Errors
 /// Returns an error if there is no such variant.
@@ -51,7 +51,7 @@ pub(crate) fn index(names: &[String], wanted: &str) -> Result<usize, Cause> {
     })
 }
 
-/// Material of a primitive in a variant, else its default material.
+/// Returns the material of a primitive in a variant, else its default material.
 ///
 /// # Errors
 /// Returns an error if the extension is invalid.

@@ -17,7 +17,7 @@ use crate::scene::{Vertex, VertexAttribute};
 /// Prefix of the names of baked light attributes, after the underscore.
 const IRRADIANCE: &str = "IRRADIANCE_";
 
-/// Most sets of four joints per vertex.
+/// Largest number of sets of four joints per vertex.
 const MAX_SETS: u32 = 4;
 
 /// Index of a joint in its skin, and its weight.

@@ -20,7 +20,7 @@ use crate::scene::gltf::file::document::Document;
 /// Name of the extension.
 pub(crate) const EXTENSION: &str = "KHR_draco_mesh_compression";
 
-/// Most bytes of a decoded primitive.
+/// Largest number of bytes of a decoded primitive.
 const MAX_DECODED_BYTES: u64 = 2 << 30;
 
 /// Decoded bytes by the index of their accessor.

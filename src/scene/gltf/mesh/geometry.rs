@@ -19,13 +19,13 @@ pub(crate) struct Geometry {
     pub vertices: Vec<Vertex>,
     /// Corners, counter-clockwise as seen from the front.
     pub triangles: Vec<[u32; 3]>,
-    /// Whether the file has normals.
+    /// True if the file has normals.
     pub has_normals: bool,
     /// Baked light at `vertices`.
     pub irradiance: Vec<VertexAttribute>,
     /// Joints and weights of each of `vertices`; empty if the primitive is not skinned.
     pub influences: Vec<Vec<Influence>>,
-    /// Whether it is the back of a double-sided surface, which a bake writes as triangles of its own.
+    /// True if it is the back of a double-sided surface, which a bake writes as triangles of its own.
     pub is_back: bool,
     /// Record of a bake about its triangles; `None` if no bake wrote the primitive.
     pub elements: Option<ElementRecord>,
@@ -78,7 +78,7 @@ fn dangling_vertex(primitive: &Primitive, row: u32) -> Cause {
     Cause::accessor(accessor, format!("index {row} refers to no vertex"))
 }
 
-/// The `extras` of a primitive; null if there are none.
+/// Returns the `extras` of a primitive; null if there are none.
 fn extras(primitive: &Primitive) -> Value {
     let value = primitive.extras.as_ref().and_then(|raw| serde_json::from_str(raw.get()).ok());
     value.unwrap_or_default()
@@ -93,8 +93,8 @@ fn element_record(elements: &Value) -> Option<ElementRecord> {
     })
 }
 
-/// Matrix that transforms normals: the inverse transpose of `linear` up to a positive factor. It is computed from
-/// cofactors, so it exists for singular transforms, too.
+/// Returns the matrix that transforms normals: the inverse transpose of `linear` up to a positive factor. It is
+/// computed from cofactors, so it exists for singular transforms, too.
 pub(crate) fn normal_matrix(linear: DMat3) -> DMat3 {
     let DMat3 { x_axis: x, y_axis: y, z_axis: z } = linear;
     let sign = if linear.determinant() < 0.0 { -1.0 } else { 1.0 };
@@ -111,7 +111,7 @@ mod tests {
     use crate::scene::gltf::fixture::Fixture;
     use crate::scene::{Scene, normal_of};
 
-    /// A unit square in the xy plane with its vertices in strip order and normals along +Z.
+    /// Returns a unit square in the xy plane with its vertices in strip order and normals along +Z.
     fn square() -> Fixture {
         let mut fixture = Fixture::new();
         fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0]);

@@ -16,7 +16,7 @@ use crate::scene::gltf::node::instancing;
 use crate::scene::gltf::node::tree::{PlacedNode, name_of};
 use crate::scene::{Material, NamedNode, Scene, Transform};
 
-/// Identifies a primitive that is read: mesh, primitive, and the bits of its morph weights.
+/// Key of a primitive that has been read: mesh, primitive, and the bits of its morph weights.
 type Key = (usize, usize, Vec<u32>);
 
 /// Reads and places meshes.
@@ -125,7 +125,7 @@ impl<'a> Meshes<'a> {
         placement::place(scene, geometry, placed.world_from_node * node_from_mesh, name, material)
     }
 
-    /// Index of the material of a primitive; it is checked that the material exists.
+    /// Returns the index of the material of a primitive, after a check that the material exists.
     fn material(&self, primitive: &Primitive, name: &str) -> Result<Option<usize>, Cause> {
         let material = variant::material(primitive, self.variant, name)?;
         if let Some(material) = material {
@@ -136,7 +136,7 @@ impl<'a> Meshes<'a> {
     }
 }
 
-/// The default material of glTF, added to the scene when it is first needed.
+/// Returns the default material of glTF. Adds it to the scene if it is not there yet.
 fn default_material(id: &mut Option<MaterialId>, materials: &mut Vec<Material>) -> MaterialId {
     *id.get_or_insert_with(|| {
         materials.push(Material { name: "glTF default".to_owned(), ..Material::default() });

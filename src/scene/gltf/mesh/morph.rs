@@ -10,7 +10,7 @@ use super::attributes::Attributes;
 use crate::scene::Vertex;
 use crate::scene::gltf::error::Cause;
 
-/// Weights of the morph targets of a mesh at this node; missing weights are zero.
+/// Returns the weights of the morph targets of a mesh at this node; missing weights are zero.
 pub(crate) fn weights<'a>(node: &'a Node, mesh: &'a Mesh) -> &'a [f32] {
     node.weights.as_deref().or(mesh.weights.as_deref()).unwrap_or_default()
 }
@@ -45,7 +45,7 @@ mod tests {
 
     use crate::scene::gltf::fixture::Fixture;
 
-    /// A triangle with a target that lifts its last corner by one along Z.
+    /// Returns a triangle with a target that lifts its last corner by one along Z.
     fn morphing() -> Fixture {
         let mut fixture = Fixture::triangle();
         let lift = fixture.floats("_LIFT", "VEC3", &[0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]);

@@ -51,8 +51,8 @@ pub(crate) fn place(
     Ok(())
 }
 
-/// Indices of the geometry's vertices in the order of the scene: unchanged, or three per triangle if the file has no
-/// normals, for flat shading.
+/// Returns the indices of the geometry's vertices in the order of the scene: unchanged, or three per triangle if the
+/// file has no normals, for flat shading.
 fn vertex_sources(geometry: &Geometry) -> Vec<u32> {
     if geometry.has_normals {
         (0..geometry.vertices.len() as u32).collect()
@@ -61,7 +61,7 @@ fn vertex_sources(geometry: &Geometry) -> Vec<u32> {
     }
 }
 
-/// Corners of the triangles as indices into [`vertex_sources`].
+/// Returns the corners of the triangles as indices into [`vertex_sources`].
 fn corner_indices(geometry: &Geometry) -> Vec<[u32; 3]> {
     if geometry.has_normals {
         geometry.triangles.clone()

@@ -68,17 +68,17 @@ fn inverse_bind_matrices(
     Ok(matrices.into_iter().map(|matrix| DAffine3::from_mat4(DMat4::from_cols_array(&matrix.map(f64::from)))).collect())
 }
 
-/// World transforms of the nodes by their index in the file.
+/// Returns the world transforms of the nodes by their index in the file.
 pub(crate) fn world_from_nodes(nodes: &[PlacedNode<'_>]) -> HashMap<usize, DAffine3> {
     nodes.iter().map(|placed| (placed.index, placed.world_from_node)).collect()
 }
 
-/// The skin that deforms a primitive of this node; `None` if the node has no skin or the primitive no joints.
+/// Returns the skin that deforms a primitive of this node; `None` if the node has no skin or the primitive no joints.
 pub(crate) fn of_node(node: &Node, geometry: &Geometry) -> Option<Index<json::Skin>> {
     node.skin.filter(|_| !geometry.influences.is_empty())
 }
 
-/// The skinned geometry in world space.
+/// Returns the skinned geometry in world space.
 ///
 /// # Errors
 /// Returns an error if a vertex refers to a joint that the skin does not have.
@@ -114,8 +114,8 @@ mod tests {
 
     use crate::scene::gltf::fixture::Fixture;
 
-    /// A triangle whose first two corners follow joint 0, and whose last follows joint 0 and, 2 higher, joint 1 by half
-    /// each.
+    /// Returns a triangle whose first two corners follow joint 0, and whose last follows joint 0 and, 2 higher, joint 1
+    /// by half each.
     fn skinned() -> Fixture {
         let mut fixture = Fixture::triangle();
         let joints = fixture.accessor(5121, "VEC4", 3, &[0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0]);

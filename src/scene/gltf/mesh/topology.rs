@@ -2,7 +2,7 @@
 
 use gltf::json::mesh::Mode;
 
-/// Corners of the triangles that `mode` forms of vertices in this order.
+/// Returns the corners of the triangles that `mode` forms of vertices in this order.
 ///
 /// Source: glTF 2.0, section 3.7.2.1.
 pub(crate) fn triangulate(mode: Mode, order: &[u32]) -> Vec<[u32; 3]> {

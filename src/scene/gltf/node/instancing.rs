@@ -28,7 +28,7 @@ fn instancing(node: &Node, index: usize) -> Result<Option<Instancing>, Cause> {
     parsed.map_err(|error| Cause::Broken(format!("node {index}: {EXTENSION}: {error}")))
 }
 
-/// Number of instances of a node's mesh, according to the JSON; 1 without the extension.
+/// Returns the number of instances of a node's mesh, according to the JSON; 1 without the extension.
 ///
 /// # Errors
 /// Returns an error if the extension is invalid.

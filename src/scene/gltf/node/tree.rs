@@ -7,7 +7,7 @@ use crate::scene::Transform;
 use crate::scene::gltf::error::Cause;
 use crate::scene::gltf::file::document::Document;
 
-/// Most levels of a node tree.
+/// Largest number of levels of a node tree.
 const MAX_DEPTH: usize = 256;
 
 /// A node of the file with its world transform.
@@ -22,7 +22,7 @@ pub(crate) struct PlacedNode<'a> {
     pub world_from_node: DAffine3,
 }
 
-/// All visible nodes at and below `roots`, parents before children.
+/// Returns all visible nodes at and below `roots`, parents before children.
 ///
 /// # Errors
 /// Returns an error if a node is its own ancestor or has two parents, the tree is too deep, or a transform is not
@@ -76,7 +76,7 @@ fn is_hidden(node: &Node) -> bool {
     visibility.is_some_and(|visibility| visibility["visible"] == false)
 }
 
-/// Transform of a node to its parent.
+/// Returns the transform of a node to its parent.
 pub(crate) fn transform(node: &Node) -> Transform {
     match (node.matrix, Transform::default()) {
         (Some(matrix), _) => Transform::Matrix(matrix),
@@ -89,14 +89,14 @@ pub(crate) fn transform(node: &Node) -> Transform {
     }
 }
 
-/// The first of two names that is not blank, else `kind` and `index`.
+/// Returns the first of two names that is not blank, else `kind` and `index`.
 pub(crate) fn name_of(names: [&Option<String>; 2], kind: &str, index: usize) -> String {
     let given = names.into_iter().flatten().find(|name| !name.trim().is_empty());
     given.cloned().unwrap_or_else(|| format!("{kind} {index}"))
 }
 
-/// Orientation of a node without its scale, shear and mirroring, for lights and cameras: right-handed orthonormal axes,
-/// the node's +Z exactly, and its +Y made perpendicular to it.
+/// Returns the orientation of a node without its scale, shear and mirroring, for lights and cameras: right-handed
+/// orthonormal axes, the node's +Z exactly, and its +Y made perpendicular to it.
 pub(crate) fn frame(world_from_node: DAffine3) -> DMat3 {
     let z = world_from_node.matrix3.z_axis.try_normalize().unwrap_or(DVec3::Z);
     let across = world_from_node.matrix3.y_axis.cross(z);

@@ -10,7 +10,7 @@ use image::{ImageFormat, ImageReader, Limits};
 /// Largest image side that is decoded, pixels.
 const MAX_IMAGE_SIDE: u32 = 16_384;
 
-/// Most bytes of a decoded image.
+/// Largest number of bytes of a decoded image.
 const MAX_IMAGE_BYTES: u64 = 4 * (MAX_IMAGE_SIDE as u64).pow(2);
 
 /// First bytes of a KTX2 file.
@@ -25,7 +25,7 @@ pub(crate) struct Pixels {
     pub mime_type: &'static str,
 }
 
-/// Number of pixels according to the header of an image.
+/// Returns the number of pixels according to the header of an image.
 ///
 /// # Errors
 /// Returns an error if the format is not supported, the header is invalid, or a side is longer than [`MAX_IMAGE_SIDE`].
@@ -94,7 +94,7 @@ fn check_ktx2_header(encoded: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// The largest level of a Basis Universal texture.
+/// Returns the largest level of a Basis Universal texture.
 fn decode_ktx2(encoded: &[u8]) -> Result<Pixels, String> {
     check_ktx2_header(encoded)?;
     let failed = |error: basisu::Error| format!("it cannot be decoded as Basis Universal: {error:?}");

@@ -10,10 +10,10 @@ use crate::scene::Image;
 use crate::scene::gltf::file::document::Document;
 use crate::scene::gltf::file::resource;
 
-/// Most bytes of all encoded images together.
+/// Largest number of bytes of all encoded images together.
 const MAX_ENCODED_BYTES: u64 = 4 << 30;
 
-/// Most pixels of all images together; 4 GiB as RGBA.
+/// Largest number of pixels of all images together; 4 GiB as RGBA.
 const MAX_PIXELS: u64 = 1 << 30;
 
 /// An image before it is decoded.

@@ -1,6 +1,6 @@
 //! The textures that materials use, with their decoded images and samplers.
 //!
-//! An image that cannot be read is no error: it is replaced by a grey pixel, and a note tells the user.
+//! An image that cannot be read is no error: it is replaced by a grey pixel, and a note for the user is added.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -27,7 +27,8 @@ pub(crate) struct TextureTable {
 }
 
 impl TextureTable {
-    /// Id of a texture of the file; `user` names the material that refers to it.
+    /// Returns the id of a texture of the file. `user` describes the material with the reference, for the error
+    /// message.
     ///
     /// # Errors
     /// Returns an error if the texture does not exist.
@@ -71,7 +72,7 @@ impl TextureTable {
     }
 }
 
-/// Index of the image of a texture: the plain one, else that of an extension.
+/// Returns the index of the image of a texture: the plain one, else that of an extension.
 fn source_of(texture: &json::Texture) -> Option<usize> {
     // The typed model uses the largest index if there is no source.
     let plain = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
