@@ -1,4 +1,4 @@
-//! A file with baked light can be written again, and loading the result gives the same light.
+//! Checks that a file with baked light can be written again, and that loading the result gives the same light.
 
 #![no_main]
 

@@ -1,4 +1,4 @@
-//! Any bytes either load as a scene or yield an error of one line, and the mesh doctor examines every scene.
+//! Checks that any bytes either load as a scene or yield an error of one line. The mesh doctor examines every scene.
 
 #![no_main]
 

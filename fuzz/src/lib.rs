@@ -1,4 +1,4 @@
-//! The lower floors of Hemicube without the GPU, the viewer and the command line: they build in a minute.
+//! The lower floors of Hemicube without the GPU, the viewer and the command line. They build in a minute.
 
 #[path = "../../src/baked/mod.rs"]
 pub mod baked;
@@ -9,8 +9,9 @@ pub mod patch;
 #[path = "../../src/scene/mod.rs"]
 pub mod scene;
 
-/// Returns a .glb file from the fuzzer's bytes: unchanged if they begin with `glTF`, else a valid container of the JSON
-/// before the first zero byte and the binary chunk after it, so that the fuzzer need not find valid lengths.
+/// Returns a .glb file made from the fuzzer's bytes. Bytes that begin with `glTF` are unchanged. Others become a valid
+/// container of the JSON before the first zero byte and the binary chunk after it, so that the fuzzer need not find
+/// valid lengths.
 #[must_use]
 pub fn glb_of(data: &[u8]) -> Vec<u8> {
     if data.starts_with(b"glTF") {

@@ -18,7 +18,7 @@ pub struct BakedScene {
     pub trees: Option<BisectionTrees>,
 }
 
-/// Irradiance at vertices, direct and indirect apart, by light group.
+/// Irradiance at vertices by light group, with direct and indirect light separate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct VertexLight {
     /// Light of each group `[g]`, in the order of [`Scene::light_groups`].
@@ -28,9 +28,9 @@ pub struct VertexLight {
 /// Irradiance by one light group, lux per channel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GroupLight {
-    /// Straight from the lights `[v]`.
+    /// Irradiance that arrives directly from lights `[v]`.
     pub direct: Vec<Vec3>,
-    /// After at least one reflection `[v]`.
+    /// Irradiance that arrives after at least one reflection `[v]`.
     pub indirect: Vec<Vec3>,
 }
 

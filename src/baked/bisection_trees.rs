@@ -1,23 +1,23 @@
 //! The bisection trees of a bake: which elements are halves of one triangle, and so on up to the triangles of the
 //! input.
 //!
-//! A bake keeps them because they follow from its triangles only with some guessing. The coarse mesh for drawing is
-//! made of their nodes ([`super::coarse`]).
+//! A bake records them because they can only be guessed from its triangles. The nodes of the trees become triangles of
+//! the coarse mesh for drawing ([`super::coarse`]).
 //!
 //! A triangle with corners `(a, f, s)`, apex first, is halved at the midpoint `m` of `f` and `s` into `(m, a, f)` and
-//! `(m, s, a)` (`patch::subdivide`). The elements of a tree are its leaves, from the first half to the second. So the
-//! shape of a tree, in preorder, and the corners of its leaves are all of it.
+//! `(m, s, a)` (`patch::subdivide`). The elements of a tree are its leaves, from the first half to the second. A tree
+//! is therefore completely described by its shape, in preorder, and the corners of its leaves.
 
 use std::fmt;
 use std::ops::Range;
 
 use crate::patch::{Node, PatchMesh};
 
-/// Deepest tree that is read; its depth is bounded by the shortest edge, far below this.
+/// Largest depth of a tree that is read. The shortest edge limits depths to far less.
 const MAX_DEPTH: u32 = 128;
 
-/// The trees of all input triangles, in the order of their elements. Either side of a double-sided triangle has its
-/// own.
+/// The trees of all input triangles, in the order of their elements. Each side of a double-sided triangle has its own
+/// tree.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct BisectionTrees {
     /// Tree after tree, each in preorder.
@@ -47,16 +47,16 @@ pub(crate) struct Tree<'a> {
     pub nodes: &'a [TreeNode],
 }
 
-/// Two triangles that are the halves of one.
+/// Two triangles that are the halves of a larger one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Halving {
-    /// Vertices of the whole, apex first, counter-clockwise as seen from its side.
+    /// Vertices of the larger triangle, apex first, counter-clockwise as seen from its side.
     pub corners: [u32; 3],
     /// Vertex in the middle of the edge opposite the apex.
     pub middle: u32,
 }
 
-/// The trees do not fit the elements.
+/// Error: the trees do not fit the elements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Inconsistent;
 
@@ -150,13 +150,14 @@ impl fmt::Display for BisectionTrees {
 }
 
 impl Tree<'_> {
-    /// Visits the triangles that are halved, halves before wholes.
+    /// Visits the triangles that are halved, halves before the triangles that contain them.
     ///
-    /// `element` returns a number for an element, of any type, and its vertices. `join` returns a number for the triangle
-    /// that two numbered triangles are the halves of. `is_back` says that the winding is that of a back, `[a, c, b]`.
+    /// `element` returns a number, of any type, for an element, and its vertices. `join` returns a number for the
+    /// triangle whose halves are two numbered triangles. `is_back` is true if the winding is that of a back, `[a, c,
+    /// b]`.
     ///
     /// # Errors
-    /// Returns an error if two halves do not share the edge that they have to.
+    /// Returns an error if two halves do not share the edge between them.
     pub fn visit<N: Copy>(
         &self,
         is_back: bool,
@@ -168,7 +169,7 @@ impl Tree<'_> {
     }
 }
 
-/// A walk through a tree.
+/// State of a traversal of a tree.
 struct Visit<'a, E, J> {
     nodes: std::slice::Iter<'a, TreeNode>,
     /// The next element.
@@ -178,7 +179,7 @@ struct Visit<'a, E, J> {
     join: J,
 }
 
-/// A triangle of a walk: its number, and its vertices in the winding of the front.
+/// A triangle of a traversal: its number, and its vertices in the winding of the front.
 type Part<N> = (N, [u32; 3]);
 
 impl<N: Copy, E: Fn(usize) -> (N, [u32; 3]), J: FnMut([N; 2], Halving) -> N> Visit<'_, E, J> {
@@ -214,7 +215,7 @@ impl<N: Copy, E: Fn(usize) -> (N, [u32; 3]), J: FnMut([N; 2], Halving) -> N> Vis
         Ok((number, std::array::from_fn(|k| whole[(k + 3 - apex) % 3])))
     }
 
-    /// From the winding of the side to that of the front, and back.
+    /// Converts between the winding of the side and that of the front.
     fn turned(&self, [a, b, c]: [u32; 3]) -> [u32; 3] {
         if self.is_back { [a, c, b] } else { [a, b, c] }
     }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// A bake could not be written.
+/// Reason why a bake could not be written.
 #[derive(Debug, Error)]
 pub enum BakedError {
     /// The file system reported an error.
@@ -15,7 +15,7 @@ pub enum BakedError {
         /// Error of the file system.
         source: std::io::Error,
     },
-    /// A .glb counts its bytes in 32 bits.
+    /// The file is too large: a .glb counts its bytes in 32 bits.
     #[error("the scene takes {bytes} bytes, a .glb file holds 4 GiB; bake with larger elements")]
     TooLarge {
         /// Size of the whole file.

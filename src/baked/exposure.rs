@@ -1,7 +1,7 @@
-//! One exposure for a whole bake, for every view.
+//! A single exposure for a bake, used for all views.
 //!
-//! The rule is that of shaders/display/light_meter.wgsl, with surfaces in place of pixels: the mean of the logarithms
-//! of luminance is shown as middle grey, unless highlights would be overexposed.
+//! It is determined as in shaders/display/light_meter.wgsl, with surfaces in place of pixels: the mean of the
+//! logarithms of luminance is shown as middle grey, unless highlights would be overexposed.
 
 use std::f32::consts::PI;
 
@@ -12,7 +12,7 @@ use crate::base::colour::luminance;
 use crate::base::ids::TriangleId;
 use crate::scene::area_of;
 
-/// Display value of the mean.
+/// Display value of the mean luminance.
 const MIDDLE_GREY: f32 = 0.2;
 /// Share of the lit area that is darker than the highlights.
 const HIGHLIGHT_SHARE: f32 = 0.95;
@@ -21,7 +21,7 @@ const HIGHLIGHT: f32 = 0.8;
 /// Surfaces darker than this share of the brightest one do not count.
 const DARK: f32 = 1e-4;
 
-/// Exposure value EV: displayed = radiance x 2^EV; 0 if nothing is lit.
+/// Returns the exposure value EV: displayed = radiance x 2^EV; 0 if nothing is lit.
 ///
 /// Textures count as white.
 #[must_use]
@@ -44,7 +44,7 @@ pub fn suited(baked: &BakedScene) -> f32 {
     (MIDDLE_GREY.log2() - mean).min((HIGHLIGHT / highlight).log2())
 }
 
-/// Reflected luminance at the middle of a triangle, nit, and its area.
+/// Returns the reflected luminance at the middle of a triangle, nit, and its area.
 fn luminance_and_area(baked: &BakedScene, t: usize) -> (f32, f32) {
     let scene = &baked.scene;
     let triangle = &scene.triangles[t];

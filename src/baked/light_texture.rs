@@ -1,4 +1,4 @@
-//! Light as a texture over the scene as it was loaded, for programs that read no light at vertices.
+//! Light as a texture over the original scene, for programs that do not read light at vertices.
 
 use std::io::Cursor;
 
@@ -25,9 +25,9 @@ pub struct Lightmap {
 /// A texture of irradiance, in rows from the top.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Texels {
-    /// Texels across.
+    /// Width, texels.
     pub width: u32,
-    /// Texels down.
+    /// Height, texels.
     pub height: u32,
     /// Irradiance `[y][x]`, lux per channel, the sum of direct and indirect light of all groups.
     pub irradiance: Vec<Vec3>,
@@ -44,7 +44,7 @@ impl Texels {
         file.into_inner()
     }
 
-    /// Bilinear sample, as by a graphics card.
+    /// Samples the texture bilinearly, as a graphics card does.
     #[must_use]
     pub fn sample(&self, coordinate: Vec2) -> Vec3 {
         let at = coordinate * Vec2::new(self.width as f32, self.height as f32) - 0.5;

@@ -1,4 +1,4 @@
-//! Floor 2.5: a scene with its light, the result of a bake and the input of every picture.
+//! Floor 2.5: a scene with its light. It is the result of a bake and the input of every picture.
 //!
 //! The triangles of a [`BakedScene`] are the *elements*; the back of a double-sided surface is a triangle of its own.
 //! Everything that works on a [`Scene`](crate::scene::Scene) (rays, shadows, `info`) therefore works on a bake.

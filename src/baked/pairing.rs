@@ -1,4 +1,4 @@
-//! Pairs fronts and backs of a bake by position, for files that do not say which belong together.
+//! Pairs fronts and backs of a bake by position, for files without a record of the pairs.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! The coarse mesh: its triangles, the tiles of their light and the elements in these.
+//! The coarse mesh: its triangles, the tiles with their light, and the elements in the tiles.
 
 use glam::UVec2;
 
@@ -12,7 +12,7 @@ use crate::scene::{Scene, Triangle};
 const MAX_SIDE: u32 = 5792;
 /// Largest number of texels per element. More would give fewer triangles, but hardly faster pictures.
 const MAX_TEXELS_PER_ELEMENT: u64 = 32;
-/// Largest number of coarse triangles per element; more are not worth a texture.
+/// Largest number of coarse triangles per element. If there are more, the texture is not worth its cost.
 const WORTH_WHILE: f32 = 0.75;
 
 /// A mesh of fewer triangles over the vertices of a scene.
@@ -21,7 +21,7 @@ pub(crate) struct CoarseMesh {
     pub triangles: Vec<Triangle>,
     /// The tiles of the first triangles.
     pub tiles: Vec<Tile>,
-    /// Texels across and down the texture.
+    /// Width and height of the texture, texels.
     pub side: u32,
     /// The elements in tiles.
     pub elements: Vec<ElementTexels>,
@@ -31,7 +31,7 @@ pub(crate) struct CoarseMesh {
     pub beyond: Vec<UVec2>,
 }
 
-/// The place in the texture of the light of a triangle.
+/// Location in the texture of the light of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tile {
     /// The texel of its first corner.
@@ -49,8 +49,8 @@ pub(crate) struct ElementTexels {
 }
 
 impl CoarseMesh {
-    /// Returns the coarse mesh of a scene of elements, with their bisection trees if these are known. `None` if the
-    /// mesh would not be much smaller, or the texture would be wider or higher than `max_side`.
+    /// Returns the coarse mesh of a scene of elements; `trees` are their bisection trees if these are known. `None` if
+    /// the mesh would not be much smaller, or the texture would be wider or higher than `max_side`.
     pub fn new(scene: &Scene, trees: Option<&BisectionTrees>, max_side: u32) -> Option<Self> {
         let forest = Forest::new(scene, trees);
         let num_elements = scene.triangles.len();

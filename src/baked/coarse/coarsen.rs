@@ -1,9 +1,9 @@
 //! Chooses the nodes of the bisection trees that are drawn as one triangle, so that there are few and the mesh has no
 //! gaps.
 //!
-//! A vertex in the middle of an edge can be removed if all triangles that touch it are halves round it: then all pairs
-//! of halves, on both sides of the edge, are joined at once, and the mesh stays conforming. Vertices of the shortest
-//! edges are removed first.
+//! A vertex in the middle of an edge can be removed if all triangles that touch it are halves created by it. Then all
+//! pairs of halves, on both sides of the edge, are joined at once, and the mesh stays conforming. Vertices of the
+//! shortest edges are removed first.
 //!
 //! Source: Chen, Zhang 2010, "A coarsening algorithm on adaptive grids by newest vertex bisection and its
 //! applications".
@@ -18,9 +18,9 @@ use rustc_hash::FxHashMap;
 use super::bisection::{Forest, Halves};
 use crate::scene::Scene;
 
-/// Largest level of a tile: its sides are cut into `2^level` parts.
+/// Largest level of a tile, whose sides are cut into `2^level` parts.
 pub(super) const MAX_LEVEL: u32 = 7;
-/// Level of the grid on which the level of a node is found; finer elements need too large a tile anyway.
+/// Level of the grid on which the level of a node is determined. Finer elements would need too large a tile.
 const FINEST: u32 = 20;
 
 /// A node that is drawn as one triangle.
@@ -57,14 +57,14 @@ pub(super) fn coarsen(scene: &Scene, forest: &Forest, texels_per_element: u64) -
 struct Coarsening<'a> {
     scene: &'a Scene,
     forest: &'a Forest,
-    /// Place of each vertex `[v]`: vertices with one position have one place.
+    /// Place of each vertex `[v]`: vertices at the same position share a place.
     place_of: Vec<u32>,
     /// Number of whole triangles that touch each place.
     touching: Vec<u32>,
     /// Nodes that are halved at each place, a range of `halved`.
     halved_at: Vec<Range<u32>>,
     halved: Vec<u32>,
-    /// Levels of the nodes that are whole at present. `None` for the others.
+    /// Levels of the nodes that are triangles of the current mesh; `None` for the others.
     levels: Vec<Option<u32>>,
 }
 
@@ -106,7 +106,7 @@ impl<'a> Coarsening<'a> {
         self.place_of[self.halves(node).middle as usize]
     }
 
-    /// Returns the bits of the length of the edge whose middle is a place; they are ordered as the lengths are.
+    /// Returns the bits of the length of the edge whose middle is a place. They have the same order as the lengths.
     fn length_at(&self, place: u32) -> u32 {
         let node = self.halved[self.halved_at[place as usize].start as usize];
         let [_, from, to] = self.forest.nodes[node as usize].corners.map(|v| self.scene.vertices[v as usize].position);

@@ -4,8 +4,8 @@
 //! not need them: interpolation between texels of a tile shows the same as interpolation between the vertices of
 //! elements.
 //!
-//! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain is
-//! not measured.
+//! It is designed for software rendering (`viewer::software`), which it makes faster. It is also used on hardware,
+//! where the gain has not been measured.
 //!
 //! * `bisection`: the bisection trees of the elements. `coarsen`: which of their nodes are drawn as one triangle.
 //!   `tiles`: the light of these in a texture. `coarse_mesh`: all of it together.

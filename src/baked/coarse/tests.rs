@@ -59,7 +59,7 @@ fn no_vertex_is_left_in_the_middle_of_an_edge() {
     let bits = |p: Vec3| (p + Vec3::ZERO).to_array().map(f32::to_bits);
     let used: HashMap<_, _> =
         coarse.triangles.iter().flat_map(|t| corners(&elements, t)).map(|corner| (bits(corner), corner)).collect();
-    // Vertices of tiles that are no corners of them, where another triangle still has a corner.
+    // Vertices in tiles that are not corners of the tile, and where another triangle still has a corner.
     for (triangle, tile) in coarse.triangles.iter().zip(&coarse.tiles) {
         let own = corners(&elements, triangle);
         for element in coarse.elements.iter().filter(|e| e.corners.iter().all(|&texel| is_in(tile, texel))) {
@@ -74,7 +74,7 @@ fn no_vertex_is_left_in_the_middle_of_an_edge() {
 #[test]
 fn a_vertex_that_another_triangle_touches_is_not_removed() {
     let mut elements = elements_of(&builtin::cornell(), 0.2);
-    // The edge between floor and back wall has its middle here.
+    // Middle of the edge between floor and back wall.
     let middle = Vec3::new(2.748, 0.0, 5.592);
     let num_at = |coarse: &CoarseMesh, elements: &Scene| {
         let places = coarse.triangles.iter().flat_map(|triangle| corners(elements, triangle));
@@ -113,7 +113,7 @@ fn filled(coarse: &CoarseMesh, value: impl Fn(u32) -> f32) -> Vec<f32> {
     texture
 }
 
-/// Between four texels; those of no weight may be anything.
+/// Interpolates between four texels. Those of weight zero may have any value.
 fn sampled(texture: &[f32], side: u32, at: Vec2) -> f32 {
     let (low, share) = (at.floor().as_uvec2(), at.fract());
     let texels = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(x, y)| {
@@ -145,7 +145,7 @@ fn tiles_reproduce_light_that_is_linear_on_a_surface() {
 fn both_sides_of_an_edge_show_the_same_light() {
     let elements = elements_of(&builtin::cornell(), 0.1);
     let coarse = CoarseMesh::new(&elements, None, MAX_SIDE).expect("a bake");
-    // Anything that depends on the place alone and is not smooth.
+    // An arbitrary function of position that is not smooth.
     let light = |p: Vec3| (p * 1234.5).element_sum().sin();
     let texture = filled(&coarse, |v| light(elements.vertices[v as usize].position));
     let bits = |p: Vec3| (p + Vec3::ZERO).to_array().map(f32::to_bits);

@@ -1,4 +1,4 @@
-//! Tiles: the place in a texture of the light of each coarse triangle, and the element of each texel.
+//! Tiles: the location in a texture of the light of each coarse triangle, and the element of each texel.
 //!
 //! A tile is a square grid with the corners of its triangle at (0, 0), (n, 0) and (0, n), so that corners of elements
 //! lie on texels and bilinear interpolation between them shows the same as interpolation on the elements. At the long
@@ -6,8 +6,8 @@
 //!
 //! t(x, y) = t(x - 1, y) + t(x, y - 1) - t(x - 1, y - 1)
 //!
-//! Light is then linear between two texels of an edge, and equal on both sides of the edge. A margin of one texel
-//! surrounds each tile, because devices round weights.
+//! Light is then linear between two texels of an edge, and equal on both sides of the edge. Each tile has a margin of
+//! one texel, because devices round the weights of interpolation.
 //!
 //! Source: Bastos, Goslin, Zhang 1997, "Efficient rendering of radiosity using textures and bicubic reconstruction".
 
@@ -18,7 +18,7 @@ use super::coarsen::{MAX_LEVEL, Whole, num_texels};
 
 /// Marks a texel without an element, as in shaders/stored_light/light_tiles.wgsl.
 pub(crate) const NOTHING: u32 = u32::MAX;
-/// Divisor of the width of a texture.
+/// The width of a texture is a multiple of this.
 const STEP: u32 = 64;
 /// Smallest width of a texture, in which the largest tile fits.
 const MIN_SIDE: u32 = num_texels(MAX_LEVEL).isqrt() as u32;
@@ -26,7 +26,7 @@ const MIN_SIDE: u32 = num_texels(MAX_LEVEL).isqrt() as u32;
 /// A square texture of tiles.
 #[derive(Debug, Default)]
 pub(super) struct Layout {
-    /// Texels across and down.
+    /// Width and height, texels.
     pub side: u32,
     /// The texel of each tile's first corner.
     pub origins: Vec<UVec2>,
@@ -76,7 +76,7 @@ pub(super) struct TileElement {
 pub(super) struct Filling {
     width: u32,
     pub elements: Vec<TileElement>,
-    /// Row by row.
+    /// Index of the element of each texel, row by row.
     pub element_of: Vec<u32>,
     /// Texels beyond the long side of a tile, next to two texels on it.
     pub beyond: Vec<UVec2>,

@@ -1,4 +1,4 @@
-//! A whole file: the JSON document with all parts of a scene, and the bytes behind it.
+//! A whole file: the JSON document with all parts of a scene, and the binary chunk.
 
 use serde_json::{Map, Value, json};
 
@@ -20,7 +20,7 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// Returns the arrays of glTF for a scene; empty arrays are left out, because glTF forbids them.
+    /// Returns the file of a scene with its light. Empty arrays are left out, because glTF forbids them.
     pub(super) fn of(scene: &Scene, light: LightStorage<'_>) -> Self {
         let mut binary = Binary::default();
         let mut extensions = Extensions::new();

@@ -1,4 +1,4 @@
-//! What a bake keeps of its elements in the `extras` of primitives: bisection trees, and which backs belong to which
+//! Records of a bake about its elements in the `extras` of primitives: bisection trees, and which backs belong to which
 //! fronts.
 //!
 //! A primitive of a bake has an object `elements`:
@@ -12,8 +12,8 @@
 //! * `back_of`: 1 if the triangles are the backs of those of the primitive before, one by one, with corners `[a, c, b]`
 //!   in the place of `[a, b, c]`; generally the number of primitives from the fronts to the backs.
 //!
-//! Programs that change meshes may leave records that fit no longer, so all is checked against the triangles. Whatever
-//! does not fit is found anew from the triangles, as it is for files without records.
+//! Programs that change meshes may leave records that no longer fit, so all records are checked against the triangles.
+//! What does not fit is determined from the triangles, as for files without records.
 
 use std::collections::HashMap;
 
@@ -30,7 +30,7 @@ const VERSION: u64 = 1;
 /// The elements of a bake, to be recorded.
 pub(super) struct Elements<'a> {
     scene: &'a Scene,
-    /// Trees by their first element; `None` if they are not known.
+    /// Trees by the index of their first element; `None` if they are not known.
     trees: Option<HashMap<usize, Tree<'a>>>,
 }
 
@@ -40,8 +40,8 @@ impl<'a> Elements<'a> {
         Self { scene, trees: trees.map(|trees| trees.iter().map(|tree| (tree.elements.start, tree)).collect()) }
     }
 
-    /// Returns the record of a primitive of these triangles; `fronts` are those of the primitive before if the
-    /// triangles may be their backs. `None` if there is nothing to record.
+    /// Returns the record of a primitive of these triangles; `None` if there is nothing to record. `fronts` are the
+    /// triangles of the preceding primitive if these triangles may be their backs.
     pub(super) fn record(&self, triangles: &[TriangleId], fronts: Option<&[TriangleId]>) -> Option<Value> {
         let mut record = json!({ "version": VERSION });
         if let Some(trees) = &self.trees {
@@ -64,11 +64,11 @@ impl<'a> Elements<'a> {
 /// Trees and pairs of fronts and backs of a loaded scene, as far as the file has them.
 #[derive(Default)]
 pub(super) struct Recorded {
-    /// The trees. `None` if a triangle has none, or they do not fit.
+    /// The trees; `None` if a triangle has none or they do not fit.
     pub trees: Option<BisectionTrees>,
-    /// Fronts with their backs. Empty if a back has no front, or they do not fit.
+    /// Fronts with their backs; empty if a back has no front or they do not fit.
     pub pairs: Vec<(TriangleId, Back)>,
-    /// What does not fit, for the user.
+    /// Messages to the user about records that do not fit.
     pub notes: Vec<String>,
 }
 
@@ -120,7 +120,7 @@ fn trees(scene: &Scene, records: &[(InstanceId, ElementRecord)]) -> Result<Optio
     Ok(Some(all))
 }
 
-/// Fronts with their backs. Empty if a back has no record of its front.
+/// Returns the fronts with their backs; empty if a back has no record of its front.
 fn pairs(scene: &Scene, records: &[(InstanceId, ElementRecord)]) -> Result<Vec<(TriangleId, Back)>, String> {
     let mut pairs = Vec::new();
     for (instance, record) in records {

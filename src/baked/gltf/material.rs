@@ -1,4 +1,4 @@
-//! Materials, textures, samplers and images.
+//! Writes materials, textures, samplers and images.
 
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -41,7 +41,7 @@ pub(super) fn texture_slots(material: &Material) -> impl Iterator<Item = &Textur
     others.into_iter().flatten().chain(normal)
 }
 
-/// Images, each once, with their index by address.
+/// Distinct images, with their index by address.
 struct UniqueImages<'a> {
     images: Vec<&'a Image>,
     number: HashMap<*const Image, usize>,
@@ -59,7 +59,7 @@ fn unique_images(scene: &Scene) -> UniqueImages<'_> {
     unique
 }
 
-/// Returns the images, as they are encoded if every viewer can read that (PNG and JPEG), else as PNG.
+/// Returns the images: as they are encoded if every viewer can read that (PNG and JPEG), else as PNG.
 fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
     let embedded = |image: &&Image| {
         let is_plain = !image.encoded.is_empty() && matches!(image.mime_type.as_str(), "image/png" | "image/jpeg");
@@ -132,8 +132,7 @@ fn materials(scene: &Scene, is_baked: bool, used: &mut Extensions) -> Vec<Value>
     scene.materials.iter().map(object).collect()
 }
 
-/// Returns the material as an unlit surface that leaves all colour to its vertices and its texture, with what it was in
-/// `extras`.
+/// Returns an unlit material whose colour comes only from vertices and texture. The original values are in `extras`.
 fn showing_light(mut object: Value, material: &Material, used: &mut Extensions) -> Value {
     const UNLIT: &str = "KHR_materials_unlit";
     let mut paint = json!({
@@ -148,7 +147,7 @@ fn showing_light(mut object: Value, material: &Material, used: &mut Extensions) 
         paint["base_colour_texture"] = pbr["baseColorTexture"].take();
         pbr["baseColorTexture"] = texture_info(&slot, used);
     }
-    // The back of a double-sided surface is there as triangles of its own.
+    // The back of a double-sided surface is stored as separate triangles.
     if let Some(object) = object.as_object_mut() {
         object.remove("doubleSided");
     }
@@ -170,7 +169,7 @@ fn object(scene: &Scene, material: &Material, used: &mut Extensions) -> Value {
         object["emissiveTexture"] = texture_info(slot, used);
     }
     if material.is_emissive() {
-        // The factor is at most one a channel, the strength takes the rest.
+        // The factor is at most one per channel; the rest is in the strength.
         object["emissiveFactor"] = json!((material.emission / strength(material.emission)).to_array());
     }
     if let Some(group) = material.group {

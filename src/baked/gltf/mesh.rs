@@ -54,7 +54,7 @@ fn mesh(
         if is_back {
             extras.insert("back_side".into(), json!(true));
         }
-        // The fronts of a material are the primitive before its backs.
+        // The primitive with the fronts of a material directly precedes that with its backs.
         let fronts = front.filter(|(of, _)| is_back && *of == material).map(|(_, fronts)| fronts);
         if let Some(record) = elements.and_then(|elements| elements.record(triangles, fronts)) {
             extras.insert("elements".into(), record);
@@ -87,7 +87,7 @@ fn renumber(triangles: &[[u32; 3]]) -> (Vec<u32>, Vec<u32>) {
     (vertices, indices)
 }
 
-/// Accessors of the attributes. An attribute whose values are all default values is left out.
+/// Adds accessors of the attributes. An attribute whose values are all default values is left out.
 fn attributes(
     scene: &Scene,
     light: LightStorage<'_>,
@@ -116,8 +116,8 @@ fn attributes(
     }
     let is_painted = used().any(|vertex| vertex.colour != Vec4::ONE);
     if let LightStorage::Vertices { appearance, .. } = light {
-        // COLOR_0 shows the light, and _COLOR holds the paint. All custom attributes have three components, because the
-        // importer of Blender mixes up attributes with different numbers.
+        // COLOR_0 shows the light, and _COLOR holds the original colour. All custom attributes have three components,
+        // because Blender's importer confuses attributes with different numbers of components.
         put(
             "COLOR_0".into(),
             binary.push_colours(vertices.iter().map(|&v| appearance.colour(scene, material, v).to_array())),

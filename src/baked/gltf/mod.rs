@@ -1,16 +1,16 @@
 //! Writes a bake, or a plain scene, as a standard .glb, and takes the light of a bake out of a loaded scene.
 //!
-//! Light is stored twice: exactly, as float vertex attributes `_IRRADIANCE_DIRECT_g` and `_IRRADIANCE_INDIRECT_g` (lux
-//! per channel, g counts the light groups), which other programs have to ignore; and for other programs, at one
-//! exposure, as vertex colours of unlit materials, which every viewer shows. What glTF has no words for lies in
-//! `extras`: `light_groups` and `exposure_ev` of the glTF scene, `light_group` of lights and emissive materials,
-//! `paint` of materials (what they were), `back_side` and `elements` of primitives (`elements.rs`); vertex colours of
-//! the scene become `_COLOR` and `_ALPHA`. Programs that read light from a texture get a file of their own
-//! (`moz_lightmap.rs`).
+//! Light is stored twice. It is stored exactly, as float vertex attributes `_IRRADIANCE_DIRECT_g` and
+//! `_IRRADIANCE_INDIRECT_g` (lux per channel, g counts the light groups), which other programs have to ignore. For
+//! other programs it is stored at one exposure, as vertex colours of unlit materials, which every viewer shows. Data
+//! for which glTF has no property is in `extras`: `light_groups` and `exposure_ev` of the glTF scene, `light_group` of
+//! lights and emissive materials, `paint` of materials (their original values), `back_side` and `elements` of
+//! primitives (`elements.rs`). Vertex colours of the scene become `_COLOR` and `_ALPHA`. Programs that read light from
+//! a texture get a separate file (`moz_lightmap.rs`).
 //!
-//! Light comes back bit by bit, and so do meshes whose nodes are not rotated; others within rounding, because each mesh
-//! is written in the space of its node, where other programs expect it. Deliberately absent: reading files, which is
-//! the loader's part ([`crate::scene::gltf`]).
+//! Light is restored exactly, and so are meshes whose nodes are not rotated. Others are restored within rounding,
+//! because each mesh is written in the space of its node, where other programs expect it. Reading files is deliberately
+//! absent: it is the task of the loader ([`crate::scene::gltf`]).
 //!
 //! * `write`: the functions to call. `document`: the whole file. `hierarchy`, `node`, `mesh`, `material`, `binary`: its
 //!   parts.

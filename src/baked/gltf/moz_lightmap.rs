@@ -1,9 +1,9 @@
 //! Light in a texture for other programs: `MOZ_lightmap` on the materials.
 //!
-//! Equation: shown = base colour x texel x intensity / pi, as in three.js and Hubs: a texel is irradiance. The image
+//! Equation: shown = base colour x texel x intensity / pi, as in three.js and Hubs; a texel is irradiance. The image
 //! has eight bits per channel and is linear, as the extension requires. Its white is the brightest irradiance, but at
-//! most that which shows white paint at twice the display white. Light and emission are scaled by one exposure. Lights
-//! are left out, because the texture contains their light.
+//! most the irradiance that shows white paint at twice the display white. Light and emission are scaled by one
+//! exposure. Lights are left out, because the texture contains their light.
 //!
 //! Source: GLTFLightMapLoaderExtension of three.js r188; Hubs, pull request 2375.
 
@@ -27,7 +27,7 @@ pub(super) fn uv_set(material: &Material) -> usize {
     texture_slots(material).map(|slot| slot.uv_set + 1).max().unwrap_or(0).max(1)
 }
 
-/// Irradiance that white of the image stands for, lux.
+/// Returns the irradiance of a white texel, lux.
 pub(super) fn white(lightmap: &Lightmap, exposure: f32) -> f32 {
     let brightest = lightmap.texels.irradiance.iter().map(|light| light.max_element()).fold(0.0, f32::max);
     if brightest > 0.0 { brightest.min(TAU / exposure) } else { PI / exposure }
@@ -74,7 +74,7 @@ pub(super) fn add(
     }
 }
 
-/// Returns a sampler without mip maps, which would mix charts that are neighbours in the image only.
+/// Returns a sampler without mip maps, which would mix charts that are neighbours only in the image.
 fn sampler() -> Value {
     const LINEAR: u32 = 9729;
     const CLAMP: u32 = 33071;
@@ -96,7 +96,7 @@ fn picture(lightmap: &Lightmap, white: f32) -> Vec<u8> {
     png(&bytes, texels.width, texels.height, ExtendedColorType::Rgb8)
 }
 
-/// Threshold of dithering, evenly distributed in 0..1 in every neighbourhood (Roberts 2018, as [`r2`]).
+/// Returns the threshold of dithering, evenly distributed in 0..1 in every neighbourhood (Roberts 2018, as [`r2`]).
 fn threshold(x: u32, y: u32) -> f32 {
     (r2(x, 0).x + r2(y, 0).y).fract()
 }

@@ -1,21 +1,20 @@
-//! A bake read back: a loaded scene whose vertices carry light.
+//! Restores a bake from a loaded scene whose vertices carry light.
 
 use super::elements::{self, Recorded};
 use crate::baked::pairing::pair_by_position;
 use crate::baked::{BakedScene, GroupLight, VertexLight};
 use crate::scene::{Scene, VertexAttribute};
 
-/// Takes the stored light out of a loaded scene, with what the file records of its elements.
+/// Moves the stored light, and the records of the elements, out of a loaded scene.
 ///
-/// A group of which only a part is stored is dark in the rest; groups without a name in the file are named by their
-/// number.
+/// If only a part of a group is stored, the rest is dark. Groups without a name in the file are named by their number.
 ///
 /// # Errors
 /// Returns the scene itself, unchanged, if it carries no light.
 #[expect(clippy::result_large_err, reason = "the error is the argument handed back, once a file")]
 pub fn from_scene(mut scene: Scene) -> Result<BakedScene, Scene> {
-    // A larger group number than there are attributes is an error of the file, and must not allocate memory for all
-    // groups below.
+    // A group number above the number of attributes is an error in the file. It must not cause memory to be allocated
+    // for all groups below it.
     let limit = scene.irradiance.len();
     let part_of = |attribute: &VertexAttribute| part(&attribute.name).filter(|&(_, group)| group < limit);
     let Some(last) = scene.irradiance.iter().filter_map(part_of).map(|(_, group)| group).max() else {
@@ -43,7 +42,7 @@ pub fn from_scene(mut scene: Scene) -> Result<BakedScene, Scene> {
 /// Selects the direct or the indirect light of a group.
 type Part = fn(&mut GroupLight) -> &mut Vec<glam::Vec3>;
 
-/// Returns the part and the group whose light an attribute holds. `None` if its name is no such name.
+/// Returns the part and the group whose light an attribute holds; `None` if it holds no light.
 fn part(name: &str) -> Option<(Part, usize)> {
     let (part, number): (Part, _) = if let Some(number) = name.strip_prefix("_IRRADIANCE_DIRECT_") {
         (|group| &mut group.direct, number)

@@ -80,7 +80,8 @@ fn lights() -> Vec<Light> {
     ]
 }
 
-/// Two squares of two materials in one instance, the second square once more as its own back, and one of everything.
+/// Returns a scene of two squares of two materials in one instance, with a back for the second square, and one item of
+/// every other kind.
 fn scene() -> Scene {
     let corner = |(x, y): (f32, f32), z: f32| Vertex {
         position: Vec3::new(x / 3.0, y / 7.0, z),
@@ -148,7 +149,7 @@ fn the_file_is_valid_gltf_with_shared_vertices_and_sides_apart() {
     assert_eq!(counts, [(Some(0), false, 4, Some(6)), (Some(1), false, 4, Some(6)), (Some(1), true, 3, Some(3))]);
 }
 
-/// Returns the scene as our own loader gives it back.
+/// Returns the scene as the program's own loader reads it.
 fn reloaded(glb: &[u8]) -> Scene {
     crate::scene::gltf::from_slice("all", glb).expect("our own file loads")
 }
@@ -204,7 +205,8 @@ fn everything_but_the_mesh_comes_back() {
     }
 }
 
-/// Equal but for the rounding of a texture transform, which is stored as scale, angle and offset.
+/// Asserts that materials are equal except for the rounding of a texture transform, which is stored as scale, angle and
+/// offset.
 fn assert_same_material(stored: &Material, back: &Material) {
     let slots = |material: &Material| {
         let normal = material.normal_texture.map(|(slot, _)| slot);
@@ -235,7 +237,7 @@ fn a_bake_keeps_its_original_materials() {
     }
 }
 
-/// COLOR_0 of all primitives, as other programs read it.
+/// Returns the COLOR_0 of all primitives, as other programs read it.
 fn shown_colours(glb: &[u8]) -> Vec<[f32; 4]> {
     let file = gltf::Gltf::from_slice_without_validation(glb).expect("glTF");
     let blob = file.blob.as_deref().expect("a binary half");

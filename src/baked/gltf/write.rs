@@ -1,4 +1,4 @@
-//! Scenes, bakes and lightmaps as bytes and files.
+//! Writes scenes, bakes and lightmaps as bytes and files.
 
 use std::path::Path;
 
@@ -12,7 +12,7 @@ use crate::baked::{BakedError, BakedScene, Lightmap};
 use crate::base::output::write_whole;
 use crate::scene::Scene;
 
-/// Writes a bake to `path`, under a temporary name in the same folder that is replaced when the file is complete.
+/// Writes a bake to `path`. The file has a temporary name in the same folder until it is complete.
 ///
 /// `exposure_ev` is the exposure at which other programs show the bake: displayed = radiance x 2^EV.
 ///

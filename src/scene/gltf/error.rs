@@ -4,7 +4,7 @@
 #[derive(Debug, thiserror::Error)]
 #[error("{file}: {cause}")]
 pub struct LoadError {
-    /// The file as the user named it, or the name given with its bytes.
+    /// Path as the user gave it, or the name given with the bytes of the file.
     pub file: String,
     /// The reason.
     pub cause: Cause,
@@ -25,9 +25,9 @@ pub enum Cause {
     /// The file has fewer bytes than its header states.
     #[error("it is cut off: {found} of {expected} bytes are there")]
     CutOff {
-        /// Bytes that the header states.
+        /// Number of bytes according to the header.
         expected: usize,
-        /// Bytes in the file.
+        /// Number of bytes in the file.
         found: usize,
     },
     /// The version is not glTF 2.
@@ -41,7 +41,7 @@ pub enum Cause {
         /// What the user can do about it.
         hint: &'static str,
     },
-    /// `FILE#SCENE` names no scene of the file.
+    /// The file has no scene of the name or index in `FILE#SCENE`.
     #[error("it has no scene {wanted:?}; there is {available}")]
     NoSuchScene {
         /// Name or index after the `#`.
@@ -83,7 +83,7 @@ pub enum Cause {
         /// What is wrong.
         problem: String,
     },
-    /// A part of the file contradicts itself or the standard; the message names it.
+    /// A part of the file contradicts itself or the standard; the message describes it.
     #[error("{0}")]
     Broken(String),
     /// The file has no material variant of the given name.
@@ -109,7 +109,7 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// [`Self::Accessor`] with this problem.
+    /// Returns [`Self::Accessor`] with this problem.
     pub(super) fn accessor(accessor: usize, problem: impl Into<String>) -> Self {
         Self::Accessor { accessor, problem: problem.into() }
     }

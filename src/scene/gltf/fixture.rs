@@ -15,7 +15,7 @@ pub struct Fixture {
 }
 
 impl Fixture {
-    /// Returns a file with one scene of one node with mesh 0, which has one primitive without attributes.
+    /// Returns a file with one scene and one node. The node has mesh 0, which has one primitive without attributes.
     pub fn new() -> Self {
         let json = json!({
             "asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
@@ -24,7 +24,7 @@ impl Fixture {
         Self { json, bytes: Vec::new() }
     }
 
-    /// Returns the triangle (0,0,0), (1,0,0), (0,1,0) with normals along +Z.
+    /// Returns a file with the triangle (0,0,0), (1,0,0), (0,1,0) and normals along +Z.
     pub fn triangle() -> Self {
         let mut fixture = Self::new();
         fixture.floats("POSITION", "VEC3", &[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
@@ -32,7 +32,7 @@ impl Fixture {
         fixture
     }
 
-    /// Primitive 0 of mesh 0.
+    /// Returns primitive 0 of mesh 0.
     pub fn primitive(&mut self) -> &mut Value {
         &mut self.json["meshes"][0]["primitives"][0]
     }

@@ -41,7 +41,7 @@ pub fn load(path: &Path) -> Result<Scene, LoadError> {
     load_with(path, &LoadOptions::default())
 }
 
-/// As [`load`], with options.
+/// Loads a file as [`load`] does, with options.
 ///
 /// # Errors
 /// Returns an error as [`load`] does, and if the file has no material variant of the given name.
@@ -55,7 +55,7 @@ pub fn load_with(path: &Path, options: &LoadOptions) -> Result<Scene, LoadError>
     read_scene(name, &bytes, folder, wanted.as_deref(), options).map_err(failed)
 }
 
-/// Loads a scene from the bytes of a .glb or .gltf file without external files; `name` stands for the file in messages.
+/// Loads a scene from the bytes of a .glb or .gltf file without external files. `name` is the file's name in messages.
 ///
 /// # Errors
 /// Returns an error as [`load`] does, and if the file refers to an external file.
@@ -63,7 +63,7 @@ pub fn from_slice(name: &str, bytes: &[u8]) -> Result<Scene, LoadError> {
     from_slice_with(name, bytes, &LoadOptions::default())
 }
 
-/// As [`from_slice`], with options.
+/// Loads a scene as [`from_slice`] does, with options.
 ///
 /// # Errors
 /// Returns an error as [`from_slice`] does, and if the file has no material variant of the given name.
@@ -82,7 +82,7 @@ fn read_file(path: &Path) -> Result<Vec<u8>, Cause> {
         Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Err(Cause::NoSuchFile),
         _ => {}
     }
-    // The metadata of a pipe or a device has no length, so the limit is applied while reading, too.
+    // Pipes and devices have no length in their metadata, so the limit is also applied while reading.
     let mut bytes = Vec::new();
     let file = std::fs::File::open(path).map_err(unreadable)?;
     file.take(resource::MAX_FILE_BYTES).read_to_end(&mut bytes).map_err(unreadable)?;

@@ -1,4 +1,4 @@
-//! Adds what the nodes carry to the scene: meshes, lights and cameras. The node tree is kept beside them.
+//! Adds the content of the nodes to the scene: meshes, lights and cameras. The node tree is stored beside them.
 
 use gltf::json::Index;
 
@@ -10,7 +10,7 @@ use super::mesh::meshes::Meshes;
 use super::node::tree::{PlacedNode, name_of, transform};
 use crate::scene::{Light, NamedNode, Scene};
 
-/// Fills a scene that already has its materials.
+/// Fills a scene whose materials have been read.
 pub(super) struct Population<'a> {
     document: &'a Document<'a>,
     scene: Scene,
@@ -20,7 +20,7 @@ pub(super) struct Population<'a> {
 }
 
 impl<'a> Population<'a> {
-    /// Starts with the tree of `nodes`.
+    /// Copies the tree of `nodes` into the scene.
     pub fn new(document: &'a Document<'a>, nodes: &[PlacedNode<'_>], mut scene: Scene, meshes: Meshes<'a>) -> Self {
         let named = |placed: &PlacedNode<'_>| {
             let name = placed.node.name.clone().unwrap_or_default();
@@ -30,7 +30,7 @@ impl<'a> Population<'a> {
         Self { document, scene, light_definitions: Vec::new(), meshes, profiles: photometric::Profiles::new(document) }
     }
 
-    /// Adds what the node `placed` carries; `scene_node` is its index in [`Scene::nodes`].
+    /// Adds the content of the node `placed`, which has index `scene_node` in [`Scene::nodes`].
     pub fn add(&mut self, scene_node: usize, placed: &PlacedNode<'_>) -> Result<(), Cause> {
         let PlacedNode { index, node, world_from_node, .. } = *placed;
         let user = || format!("node {index}");

@@ -1,4 +1,4 @@
-//! Selection of one of a file's scenes: by `FILE#NAME` or `FILE#1`, else the default scene.
+//! Selects one of a file's scenes: that of `FILE#NAME` or `FILE#1`, or else the default scene.
 
 use std::path::{Path, PathBuf};
 
@@ -7,7 +7,8 @@ use gltf::json::{Index, Node, Root};
 use super::error::Cause;
 use super::file::document::Document;
 
-/// Returns the file, and the scene named after `#`. A file whose name contains the `#` takes precedence.
+/// Splits `FILE#SCENE` into the file and the scene after `#`. If a file exists whose name contains the `#`, it takes
+/// precedence.
 pub(super) fn split_scene_name(path: &Path) -> (PathBuf, Option<String>) {
     if let Some((file, scene)) = path.to_str().filter(|_| !path.exists()).and_then(|text| text.rsplit_once('#')) {
         return (PathBuf::from(file), Some(scene.to_owned()));
@@ -15,8 +16,8 @@ pub(super) fn split_scene_name(path: &Path) -> (PathBuf, Option<String>) {
     (path.to_owned(), None)
 }
 
-/// Returns the root nodes of the wanted scene, else of the default scene, else of the first one; without scenes all
-/// nodes that have no parent.
+/// Returns the root nodes of the wanted scene, else of the default scene, else of the first one. Without scenes,
+/// returns all nodes that have no parent.
 pub(super) fn root_nodes(document: &Document<'_>, wanted: Option<&str>) -> Result<Vec<Index<Node>>, Cause> {
     let root = &document.root;
     let scene = match (wanted, root.scene) {

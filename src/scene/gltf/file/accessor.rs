@@ -1,6 +1,6 @@
-//! Numbers of accessors, read within checked bounds: strides, normalised integers, sparse substitution.
+//! Reads the numbers of accessors within checked bounds: strides, normalised integers, sparse substitution.
 //!
-//! Only the rows that a primitive uses are read, because a thousand primitives may share one buffer.
+//! Only the rows that a primitive uses are read, because many primitives may share one buffer.
 //!
 //! Source: glTF 2.0, section 3.6.2.
 
@@ -16,7 +16,7 @@ use crate::scene::gltf::error::Cause;
 /// substitutes.
 const MAX_VIRTUAL_COUNT: usize = 1 << 20;
 
-/// An accessor with a checked layout: every row below `count` lies inside its bytes.
+/// An accessor with a checked layout: all rows below `count` are inside its bytes.
 pub(crate) struct Reader<'a> {
     id: usize,
     count: usize,

@@ -1,7 +1,8 @@
 //! Splits the bytes of a file into typed JSON and the binary chunk.
 //!
-//! The entry points of the gltf crate are not used if they can panic (a header length below 12) or are stricter than
-//! the standard (a scene without nodes, an integer written as `3.0`, an invalid animation, which is never played here).
+//! The entry points of the gltf crate are not used: some can panic (a header length below 12), and some are stricter
+//! than necessary. They reject a scene without nodes, an integer written as `3.0`, and an invalid animation, which is
+//! never played here.
 
 use gltf::Glb;
 use gltf::json::Root;
@@ -49,7 +50,8 @@ fn split_glb(bytes: &[u8]) -> Result<Glb<'_>, Cause> {
     if expected > bytes.len() {
         return Err(Cause::CutOff { expected, found: bytes.len() });
     }
-    // Limited to the stated length, a file whose header states less than the header's own size is refused as too short.
+    // The bytes are limited to the length in the header. A header that states less than its own size is then refused as
+    // too short.
     Glb::from_slice(&bytes[..expected]).map_err(|error| match error {
         gltf::Error::Binary(gltf::binary::Error::Io(_)) => Cause::NotGltf("its last chunk is cut off".to_owned()),
         error => Cause::NotGltf(format!("broken .glb container: {error}")),
@@ -74,7 +76,7 @@ fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
-/// Removes or fills in what the typed model refuses although the standard allows it or the loader ignores it.
+/// Removes or completes what the typed model refuses although the standard allows it or the loader ignores it.
 fn be_lenient(json: &mut Value) {
     if let Value::Object(root) = json {
         root.remove("animations");

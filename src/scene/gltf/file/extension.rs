@@ -25,7 +25,7 @@ const SUPPORTED: [&str; 17] = [
     "KHR_texture_transform",
 ];
 
-/// Extensions that change neither geometry nor diffuse light; a file that requires them is read without them.
+/// Extensions that change neither geometry nor diffuse light. A file that requires them is read without them.
 const HARMLESS: [&str; 10] = [
     "KHR_animation_pointer",
     "KHR_materials_anisotropy",
@@ -56,7 +56,7 @@ pub(crate) fn check(root: &Root) -> Result<Option<String>, Cause> {
     Ok((!names.is_empty()).then(|| format!("these extensions are ignored: {}", names.join(", "))))
 }
 
-/// Advice: how to convert a file that requires an extension into one that does not.
+/// Returns advice on how to convert a file that requires an extension into one that does not.
 pub(crate) fn hint(name: &str) -> &'static str {
     match name {
         "EXT_texture_avif" => "convert its textures with: gltf-transform png IN.glb OUT.glb --formats \"*\"",

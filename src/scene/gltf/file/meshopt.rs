@@ -13,7 +13,7 @@ pub(crate) const EXTENSIONS: [&str; 2] = ["EXT_meshopt_compression", "KHR_meshop
 /// zero bytes of one channel. A stream that claims more is refused before memory is allocated.
 const MAX_EXPANSION: usize = 1024;
 
-/// Largest vertex size, bytes; a vertex size is a multiple of four.
+/// Largest vertex size, bytes; vertex sizes are multiples of four.
 const MAX_STRIDE: usize = 256;
 
 /// Returns the extension of a buffer view, if it has one.
@@ -59,7 +59,7 @@ enum Filter {
     Color,
 }
 
-/// A row of `W` words: the decoder requires the vertex size as a type.
+/// A row of `W` words. The decoder requires a type of the size of a vertex.
 #[derive(Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 #[repr(transparent)]
 struct Row<const W: usize>([u32; W]);
@@ -126,7 +126,7 @@ impl Stream {
     }
 }
 
-/// Applies a filter to the rows in a copy that is aligned for them.
+/// Applies a filter to the rows. The filter works on an aligned copy.
 fn in_place<T: bytemuck::Pod>(bytes: &mut [u8], filter: impl Fn(&mut [T])) {
     let mut rows: Vec<T> = bytemuck::pod_collect_to_vec(bytes);
     filter(&mut rows);
@@ -138,7 +138,7 @@ fn bytes_of<T: bytemuck::Pod>(decoded: meshopt::Result<Vec<T>>) -> Result<Vec<u8
     Ok(bytemuck::cast_slice(&rows).to_vec())
 }
 
-/// Decodes vertices; the 64 possible vertex sizes are a type each.
+/// Decodes vertices. The decoder requires a type for each of the 64 possible vertex sizes.
 fn vertices(compressed: &[u8], count: usize, stride: usize) -> Result<Vec<u8>, String> {
     macro_rules! by_words {
         ($($words:literal)*) => {

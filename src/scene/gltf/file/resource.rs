@@ -1,4 +1,5 @@
-//! Bytes of a glTF URI: an embedded `data:` URI, or a file in the scene's folder. No other file is ever opened.
+//! Reads the bytes of a glTF URI: an embedded `data:` URI, or a file in the scene's folder. No other file is ever
+//! opened.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -10,12 +11,12 @@ use percent_encoding::percent_decode_str;
 /// Largest file that is read, bytes.
 pub(crate) const MAX_FILE_BYTES: u64 = 4 << 30;
 
-/// Returns the bytes of `uri`; their number is subtracted from the budget `left`. `folder` is the folder of the scene;
-/// `None` if the scene is only bytes.
+/// Returns the bytes of `uri`, and subtracts their number from the budget `left`. `folder` is the folder of the scene;
+/// `None` if the scene was given as bytes.
 ///
 /// # Errors
-/// Returns an error if the URI is refused or the file cannot be read. It is one sentence with the URI, which the caller
-/// embeds in its own error or note.
+/// Returns an error if the URI is refused or the file cannot be read. The error is one sentence with the URI, which the
+/// caller embeds in its own error or note.
 pub(crate) fn fetch(uri: &str, folder: Option<&Path>, left: &mut u64) -> Result<Vec<u8>, String> {
     let bytes = match uri.strip_prefix("data:") {
         Some(data) => decode_data_uri(data)?,
@@ -54,10 +55,10 @@ fn decode_data_uri(data: &str) -> Result<Vec<u8>, String> {
         .map_err(|error| format!("its data: URI is not valid base64: {error}"))
 }
 
-/// Returns the relative path that a URI names; refused if it could lead out of the scene's folder.
+/// Returns the relative path in a URI. Refuses paths that could lead out of the scene's folder.
 fn relative_path(uri: &str) -> Result<PathBuf, String> {
     let decoded = percent_decode_str(uri).decode_utf8().map_err(|_| format!("{uri:?} is not UTF-8"))?;
-    // A colon or backslash means another scheme, a drive, or a Windows path.
+    // Colons and backslashes occur in other schemes, drives, and Windows paths.
     if decoded.is_empty() || decoded.contains([':', '\\', '\0']) {
         return Err(refused(uri));
     }
@@ -67,7 +68,7 @@ fn relative_path(uri: &str) -> Result<PathBuf, String> {
 }
 
 fn refused(uri: &str) -> String {
-    // A URI has no maximal length; the message shows its beginning.
+    // URIs can have any length, so the message shows only the beginning.
     let shown: String = uri.chars().take(80).collect();
     format!("{shown:?} is refused: only files in the scene's own folder and data: URIs are read")
 }

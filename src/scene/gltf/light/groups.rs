@@ -14,7 +14,7 @@ pub(crate) const MAX_GROUPS: usize = 8;
 /// Name of the group of all sources that have no group of their own.
 pub(crate) const OTHERS: &str = "other lights";
 
-/// A source of light, in the order of groups.
+/// Sources of light, sorted in the order of groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Source {
     /// A light definition of the file.
@@ -51,8 +51,8 @@ pub(crate) fn assign(scene: &mut Scene, definitions: &[usize], names: &[Option<S
     }
 }
 
-/// Returns the sources with a group of their own: all of them if there are enough groups, else those of the largest
-/// flux, in file order; the others share the last group.
+/// Returns the sources with a group of their own, in file order. These are all sources if there are enough groups, else
+/// those of the largest flux; the others share the last group.
 fn sources_with_own_group(flux: &BTreeMap<Source, f32>) -> Vec<Source> {
     let mut sources: Vec<_> = flux.keys().copied().collect();
     if sources.len() > MAX_GROUPS {

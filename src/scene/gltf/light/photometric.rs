@@ -67,14 +67,14 @@ pub(crate) fn of_node(node: &Node, index: usize) -> Result<Option<NodeLight>, Ca
     parsed.map_err(|error| Cause::Broken(format!("node {index}: {EXTENSION}: {error}")))
 }
 
-/// JSON of the document's photometric files.
+/// Returns the JSON of the document's photometric files.
 pub(crate) fn definitions(root: &Root) -> &[Value] {
     let extension = root.extensions.as_ref().and_then(|extensions| extensions.others.get(EXTENSION));
     extension.and_then(|extension| extension["lights"].as_array()).map_or(&[], Vec::as_slice)
 }
 
 impl NodeLight {
-    /// Factor of the photometric intensities: colour times multiplier, per channel.
+    /// Returns the factor of the photometric intensities: colour times multiplier, per channel.
     pub fn factor(&self) -> Vec3 {
         (Vec3::from(self.color).clamp(Vec3::ZERO, Vec3::ONE) * self.multiplier).max(Vec3::ZERO)
     }
@@ -110,8 +110,8 @@ fn read(document: &Document<'_>, definition: &Value) -> Result<Arc<Photometry>, 
     table.map(Arc::new)
 }
 
-/// Returns the light at its position in the world, with the intensities of a photometric file times `factor`, in group
-/// 0 until groups are assigned; `None` if its intensity is zero.
+/// Returns the light at its position in the world, in group 0 until groups are assigned. Its intensities are those of a
+/// photometric file times `factor`; `None` if they are zero.
 ///
 /// # Errors
 /// Returns an error if the intensity is not plausible.

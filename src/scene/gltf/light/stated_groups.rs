@@ -1,4 +1,4 @@
-//! Light groups that a file states in `extras`, as baked files and the built-in scenes do.
+//! Light groups that are given in `extras`, as in baked files and the built-in scenes.
 //!
 //! `light_groups` of a glTF scene lists the names in order; `light_group` of a light or an emissive material is the
 //! name of its group.
@@ -11,8 +11,8 @@ use super::photometric;
 use crate::base::ids::GroupId;
 use crate::scene::Scene;
 
-/// Assigns every light and every emissive material to the group that the file states. Returns false and changes nothing
-/// if the file states no groups or more than [`MAX_GROUPS`].
+/// Assigns every light and every emissive material to its group in the file. Returns false and changes nothing if the
+/// file has no groups or more than [`MAX_GROUPS`].
 ///
 /// `definitions[l]` is the index of the light definition of the scene's light l.
 pub(crate) fn assign(scene: &mut Scene, definitions: &[usize], root: &Root) -> bool {

@@ -1,7 +1,7 @@
 //! The original material of a baked file.
 //!
-//! A baked file shows its light in every glTF viewer, so its materials are changed: `baked/gltf/material.rs` writes the
-//! original values to `paint` in the material's `extras`, and they are read here.
+//! A baked file shows its light in every glTF viewer, so its materials are changed. `baked/gltf/material.rs` writes the
+//! original values to `paint` in the material's `extras`; here they are read.
 
 use gltf::json;
 use serde::Deserialize;
@@ -11,14 +11,14 @@ use serde::Deserialize;
 pub(crate) struct OriginalMaterial {
     /// Base colour factor.
     pub base_colour: [f32; 4],
-    /// Both faces reflect; the file has the back faces as triangles of their own.
+    /// True if both faces reflect; the file then has separate triangles for the back faces.
     pub double_sided: bool,
     /// True if the original material is unlit.
     pub unlit: bool,
     /// True if the file has the emissive texture in place of the base colour texture.
     #[serde(default)]
     pub shows_emission: bool,
-    /// Base colour texture, if the emissive one is in its place.
+    /// Original base colour texture, if the emissive texture takes its place in the file.
     #[serde(default)]
     pub base_colour_texture: Option<json::texture::Info>,
 }

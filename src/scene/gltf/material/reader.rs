@@ -1,4 +1,4 @@
-//! Reads glTF materials, as far as they matter for light.
+//! Reads the properties of glTF materials that affect light.
 
 use glam::{Affine2, Mat2, Vec2, Vec3, Vec4};
 use gltf::json;
@@ -38,13 +38,13 @@ pub(crate) struct MaterialReader<'a> {
     pub textures: TextureTable,
     /// Messages to the user.
     pub notes: Vec<String>,
-    /// The file's texture coordinate sets that the two sets of a vertex hold, by material `[m]`.
+    /// Texture coordinate sets of the file that are stored in the two sets of a vertex, by material `[m]`.
     pub uv_sets: Vec<[u32; 2]>,
     /// Texture coordinate sets of the material that is being read.
     vertex_sets: [Option<u32>; 2],
 }
 
-/// A texture as a material of the file refers to it.
+/// Reference of a material of the file to a texture.
 struct Reference<'a> {
     index: json::Index<json::Texture>,
     uv_set: u32,
@@ -59,7 +59,7 @@ impl<'a> Reference<'a> {
 }
 
 impl<'a> MaterialReader<'a> {
-    /// Starts without textures.
+    /// Returns a reader without textures.
     pub fn new(document: &'a Document<'a>) -> Self {
         Self {
             document,
@@ -121,7 +121,8 @@ impl<'a> MaterialReader<'a> {
         Ok(material)
     }
 
-    /// Replaces the metallic-roughness fallback by the diffuse part of a specular-glossiness material.
+    /// Replaces the metallic-roughness values, which are only a fallback, by the diffuse part of a specular-glossiness
+    /// material.
     fn take_diffuse(&mut self, material: &mut Material, extension: &serde_json::Value) -> Result<(), Cause> {
         let name = material.name.clone();
         let source = SpecularGlossiness::deserialize(extension).map_err(|error| {
@@ -176,7 +177,7 @@ impl<'a> MaterialReader<'a> {
     }
 }
 
-/// Translation x rotation x scale; a positive angle is counter-clockwise as seen, with v pointing down.
+/// Returns translation x rotation x scale. A positive angle is counter-clockwise as seen, with v pointing down.
 ///
 /// Source: KHR_texture_transform.
 fn affine_of(transform: &TextureTransform) -> Affine2 {
@@ -217,8 +218,8 @@ fn clamp(material: &mut Material) -> Result<(), Cause> {
     Ok(())
 }
 
-/// Removes normal and metallic-roughness textures whose image cannot be read, because the grey substitute would be
-/// taken for data.
+/// Removes normal and metallic-roughness textures whose image cannot be read. The grey substitute would be read as
+/// data.
 pub(crate) fn drop_missing_data_textures(materials: &mut [Material], textures: &[Texture]) {
     let is_there = |slot: &TextureSlot| !textures[slot.texture.index()].image.encoded.is_empty();
     for material in materials {

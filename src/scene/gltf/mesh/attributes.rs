@@ -32,7 +32,8 @@ pub(crate) struct Attributes<'a> {
 }
 
 impl<'a> Attributes<'a> {
-    /// Attributes of `primitive`; `decoded` holds the bytes of accessors that Draco compressed, `name` is for messages.
+    /// Finds the attributes of `primitive`. `decoded` holds the bytes of accessors that Draco compressed; `name` is
+    /// used in messages.
     pub(super) fn new(
         document: &'a Document<'a>,
         primitive: &'a Primitive,
@@ -59,7 +60,7 @@ impl<'a> Attributes<'a> {
         self.reader(semantic)?.map(|reader| reader.vectors(rows)).transpose()
     }
 
-    /// COLOR_0 as RGBA; integers are read as fractions of their largest value.
+    /// Reads COLOR_0 as RGBA. Integers are read as fractions of their largest value.
     fn colours(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
         if self.irradiance_accessors().next().is_some() {
             return self.original_colours(rows);
@@ -74,7 +75,8 @@ impl<'a> Attributes<'a> {
         Ok(Some(colours))
     }
 
-    /// Vertex colours of a baked primitive: COLOR_0 shows the baked light, and `_COLOR` and `_ALPHA` hold the original.
+    /// Reads the original vertex colours of a baked primitive from `_COLOR` and `_ALPHA`; its COLOR_0 shows the baked
+    /// light.
     fn original_colours(&self, rows: &[u32]) -> Result<Option<Vec<Vec4>>, Cause> {
         let original = |name: &str| self.vectors::<3>(Semantic::Extras(name.to_owned()), rows);
         let (colours, alphas) = (original("COLOR")?, original("ALPHA")?);
@@ -115,8 +117,8 @@ impl<'a> Attributes<'a> {
         Ok((positions.into_iter().enumerate().map(vertex).collect(), normals.is_some()))
     }
 
-    /// Influences of each vertex: JOINTS_n with WEIGHTS_n, without those of weight zero; empty if the primitive has no
-    /// joints.
+    /// Returns the influences of each vertex: JOINTS_n with WEIGHTS_n, without those of weight zero; empty if the
+    /// primitive has no joints.
     ///
     /// Source: glTF 2.0, section 3.7.3.3.
     ///

@@ -1,6 +1,6 @@
 //! Decoding of compressed primitives (KHR_draco_mesh_compression).
 //!
-//! The result is the bytes that the primitive's accessors describe, so accessors read them like bytes of the file.
+//! The result is bytes in the format of the primitive's accessors, so accessors read them like bytes of the file.
 //!
 //! Source: the extension's specification; the decoder of the draco-core crate is used.
 
@@ -73,7 +73,7 @@ fn decode_mesh(bytes: &[u8], num_indices: Option<u64>) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-/// Parses an attribute name through the typed model, whose own parser is private.
+/// Parses an attribute name by way of the typed model, whose own parser is private.
 fn semantic_of(name: &str) -> Checked<Semantic> {
     serde_json::from_value(name.into()).unwrap_or(Checked::Invalid)
 }
@@ -96,7 +96,7 @@ fn index_bytes(mesh: &Mesh, accessor: &Accessor) -> Result<Vec<u8>, String> {
     Ok(corners.flat_map(|corner| corner.to_le_bytes().into_iter().take(size)).collect())
 }
 
-/// Values in vertex order. The type of the accessor must be that of the stream.
+/// Returns the values of an attribute in vertex order. The accessor must have the same type as the stream.
 fn attribute_bytes(mesh: &Mesh, attribute: &PointAttribute, accessor: &Accessor) -> Result<Vec<u8>, String> {
     let (Checked::Valid(GenericComponentType(component)), Checked::Valid(shape)) =
         (accessor.component_type, accessor.type_)

@@ -32,10 +32,10 @@ pub(crate) struct Geometry {
 }
 
 impl Geometry {
-    /// Reads a primitive; `None` if it has no triangles: points, lines, or no positions.
+    /// Reads a primitive. `None` if it has no triangles: points, lines, or no positions.
     ///
-    /// `uv_sets` are the texture coordinate sets of its material, `weights` those of its morph targets, and `name`
-    /// stands for the primitive in messages.
+    /// `uv_sets` are the texture coordinate sets of its material, `weights` those of its morph targets. `name`
+    /// identifies the primitive in messages.
     ///
     /// # Errors
     /// Returns an error if an accessor cannot be read or an index refers to no vertex.
@@ -84,7 +84,7 @@ fn extras(primitive: &Primitive) -> Value {
     value.unwrap_or_default()
 }
 
-/// Record of a bake about the triangles of a primitive; `None` if there is none or it has no version.
+/// Returns the record of a bake about the triangles of a primitive; `None` if there is none or it has no version.
 fn element_record(elements: &Value) -> Option<ElementRecord> {
     Some(ElementRecord {
         version: elements["version"].as_u64()?,

@@ -1,4 +1,4 @@
-//! The meshes of nodes. Each primitive is read once and placed once per node and instance.
+//! Reads and places the meshes of nodes. Each primitive is read once, and placed once per node and instance.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Morph targets in their rest pose: with the weights of the node, else of the mesh.
+//! Morph targets in their rest pose: with the weights of the node, or else of the mesh.
 //!
 //! Source: glTF 2.0, section 3.7.2.2.
 

@@ -91,7 +91,7 @@ fn add_vertices(
     Ok(())
 }
 
-/// Adds the baked light; vertices without an attribute that other primitives have get zeros.
+/// Adds the baked light. Vertices without an attribute that other primitives have get zeros.
 fn add_irradiance(scene: &mut Scene, geometry: &Geometry, sources: &[u32], first: usize) {
     for attribute in &geometry.irradiance {
         let values = match scene.irradiance.iter_mut().find(|stored| stored.name == attribute.name) {

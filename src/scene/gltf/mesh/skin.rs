@@ -27,7 +27,7 @@ struct Skin {
     inverse_bind_matrices: Option<u32>,
 }
 
-/// Transforms W_j B_j of a skin's joints, from mesh space to world space `[joint]`.
+/// Returns the transforms W_j B_j of a skin's joints, from mesh space to world space `[joint]`.
 ///
 /// `world_from_node` holds the visible nodes by their index in the file.
 ///
@@ -92,7 +92,7 @@ pub(crate) fn posed(geometry: &Geometry, world_from_joints: &[DAffine3]) -> Resu
     Ok(posed)
 }
 
-/// Weighted mean of the joints' transforms.
+/// Returns the weighted mean of the joints' transforms.
 fn blended(influences: &[Influence], world_from_joints: &[DAffine3]) -> Result<DAffine3, Cause> {
     let total: f64 = influences.iter().map(|&(_, weight)| f64::from(weight)).sum();
     let mut sum = DAffine3 { matrix3: glam::DMat3::ZERO, translation: glam::DVec3::ZERO };

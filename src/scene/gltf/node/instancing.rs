@@ -38,7 +38,7 @@ pub(crate) fn count(document: &Document<'_>, node: &Node, index: usize) -> Resul
     Ok(accessors.map(|accessor: &Accessor| accessor.count.0).max().unwrap_or(1))
 }
 
-/// Transforms from mesh space to node space, one per instance.
+/// Returns the transforms from mesh space to node space, one per instance.
 ///
 /// # Errors
 /// Returns an error if the extension is invalid or its accessors cannot be read.

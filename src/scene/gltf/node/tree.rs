@@ -89,14 +89,14 @@ pub(crate) fn transform(node: &Node) -> Transform {
     }
 }
 
-/// Returns the first of two names that is not blank, else `kind` and `index`.
+/// Returns the first of two names that is not blank, or else a name from `kind` and `index`.
 pub(crate) fn name_of(names: [&Option<String>; 2], kind: &str, index: usize) -> String {
     let given = names.into_iter().flatten().find(|name| !name.trim().is_empty());
     given.cloned().unwrap_or_else(|| format!("{kind} {index}"))
 }
 
-/// Returns the orientation of a node without its scale, shear and mirroring, for lights and cameras: right-handed
-/// orthonormal axes, the node's +Z exactly, and its +Y made perpendicular to it.
+/// Returns the orientation of a node without its scale, shear and mirroring, for lights and cameras. The result has
+/// right-handed orthonormal axes: the node's +Z exactly, and its +Y made perpendicular to it.
 pub(crate) fn frame(world_from_node: DAffine3) -> DMat3 {
     let z = world_from_node.matrix3.z_axis.try_normalize().unwrap_or(DVec3::Z);
     let across = world_from_node.matrix3.y_axis.cross(z);

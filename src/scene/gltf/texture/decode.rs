@@ -50,7 +50,7 @@ fn format_of(encoded: &[u8]) -> Result<ImageFormat, String> {
     }
 }
 
-/// Decodes an image; its format follows from its first bytes, whatever the MIME type in the file.
+/// Decodes an image. Its first bytes determine the format, whatever the MIME type in the file.
 ///
 /// # Errors
 /// Returns an error if the format is not supported or the image is invalid; it is one sentence for the caller to embed.
@@ -73,7 +73,7 @@ pub(crate) fn decode(encoded: &[u8]) -> Result<Pixels, String> {
 /// Bytes of a KTX2 header before its table of levels (KTX 2.0, section 2).
 const KTX2_HEADER_BYTES: usize = 80;
 
-/// Checks the header of a KTX2 file: glTF allows a single two-dimensional image only, and no level may state more
+/// Checks the header of a KTX2 file. glTF allows only a single two-dimensional image. No level may state more
 /// uncompressed bytes than its pixels need, because the transcoder would allocate that memory.
 fn check_ktx2_header(encoded: &[u8]) -> Result<(), String> {
     let word = |at: usize| encoded.get(at..at + 4).map_or(0, |b| u32::from_le_bytes([b[0], b[1], b[2], b[3]]));
@@ -94,7 +94,7 @@ fn check_ktx2_header(encoded: &[u8]) -> Result<(), String> {
     Ok(())
 }
 
-/// Returns the largest level of a Basis Universal texture.
+/// Decodes the largest level of a Basis Universal texture.
 fn decode_ktx2(encoded: &[u8]) -> Result<Pixels, String> {
     check_ktx2_header(encoded)?;
     let failed = |error: basisu::Error| format!("it cannot be decoded as Basis Universal: {error:?}");
@@ -122,13 +122,13 @@ mod tests {
         let mut png = b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR".to_vec();
         png.extend([40_000u32, 40_000].into_iter().flat_map(u32::to_be_bytes));
         png.extend([8, 6, 0, 0, 0]);
-        // The checksum of the header. There is no image data, but the decoder does not read that far.
+        // Checksum of the header. Image data is missing, but the decoder does not read that far.
         png.extend(crc32(&png[12..29]).to_be_bytes());
         png.extend(b"\0\0\0\0IDAT\x35\xaf\x06\x1e");
         assert!(claimed_pixels(&png).expect_err("too large").contains("40000 x 40000"));
     }
 
-    /// CRC-32 of PNG (ISO 3309).
+    /// Returns the CRC-32 of PNG (ISO 3309).
     fn crc32(bytes: &[u8]) -> u32 {
         let step = |crc: u32, &byte: &u8| {
             (0..8).fold(crc ^ u32::from(byte), |c, _| if c & 1 == 1 { 0xedb8_8320 ^ (c >> 1) } else { c >> 1 })
