@@ -153,8 +153,8 @@ impl Tree<'_> {
     /// Visits the triangles that are halved, halves before the triangles that contain them.
     ///
     /// `element` returns a number, of any type, for an element, and its vertices. `join` returns a number for the
-    /// triangle whose halves are two numbered triangles. `is_back` is true if the winding is that of a back, `[a, c,
-    /// b]`.
+    /// triangle whose halves are two numbered triangles. `is_back` is true if the elements have the winding of backs,
+    /// `[a, c, b]`.
     ///
     /// # Errors
     /// Returns an error if two halves do not share the edge between them.

@@ -31,12 +31,12 @@ pub struct Light {
 pub enum LightKind {
     /// Emits from a point in all directions.
     Point {
-        /// Metres.
+        /// Position of the light, metres.
         position: Vec3,
     },
     /// Emits from a point in a cone.
     Spot {
-        /// Metres.
+        /// Position of the light, metres.
         position: Vec3,
         /// Unit axis, away from the light.
         direction: Vec3,

@@ -31,7 +31,7 @@ pub struct Material {
     pub emissive_texture: Option<TextureSlot>,
     /// Light group of the emission; `None` if the material emits nothing.
     pub group: Option<GroupId>,
-    /// Meaning of alpha.
+    /// Effect of alpha.
     pub alpha_mode: AlphaMode,
     /// True if both faces reflect and emit.
     pub double_sided: bool,
@@ -43,7 +43,7 @@ pub struct Material {
     pub ior: f32,
 }
 
-/// Meaning of alpha.
+/// Effect of alpha.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AlphaMode {
     /// Alpha is ignored.

@@ -7,17 +7,17 @@ use glam::{DAffine3, DMat4, DQuat, DVec3};
 /// A node of the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct NamedNode {
-    /// Its name; may be empty.
+    /// Name of the node; may be empty.
     pub name: String,
-    /// Its parent, an earlier index into [`Scene::nodes`](super::Scene::nodes); `None` for a root.
+    /// Index of the parent in [`Scene::nodes`](super::Scene::nodes), lower than its own; `None` for a root.
     pub parent: Option<usize>,
     /// Transform to its parent.
     pub transform: Transform,
-    /// Its instances, as a range of [`Scene::instances`](super::Scene::instances).
+    /// Instances of the node, as a range of [`Scene::instances`](super::Scene::instances).
     pub instances: Range<usize>,
-    /// Index of its light; `None` if it has none.
+    /// Index of its light in the scene; `None` if it has none.
     pub light: Option<usize>,
-    /// Index of its camera; `None` if it has none.
+    /// Index of its camera in the scene; `None` if it has none.
     pub camera: Option<usize>,
 }
 

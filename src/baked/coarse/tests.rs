@@ -59,7 +59,7 @@ fn no_vertex_is_left_in_the_middle_of_an_edge() {
     let bits = |p: Vec3| (p + Vec3::ZERO).to_array().map(f32::to_bits);
     let used: HashMap<_, _> =
         coarse.triangles.iter().flat_map(|t| corners(&elements, t)).map(|corner| (bits(corner), corner)).collect();
-    // Vertices in tiles that are not corners of the tile, and where another triangle still has a corner.
+    // A vertex of an element in a tile must not be a corner of another triangle, except at the corners of the tile.
     for (triangle, tile) in coarse.triangles.iter().zip(&coarse.tiles) {
         let own = corners(&elements, triangle);
         for element in coarse.elements.iter().filter(|e| e.corners.iter().all(|&texel| is_in(tile, texel))) {

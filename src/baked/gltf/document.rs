@@ -20,7 +20,7 @@ pub(super) struct Document {
 }
 
 impl Document {
-    /// Returns the file of a scene with its light. Empty arrays are left out, because glTF forbids them.
+    /// Builds the file of a scene with its light. Empty arrays are left out, because glTF forbids them.
     pub(super) fn of(scene: &Scene, light: LightStorage<'_>) -> Self {
         let mut binary = Binary::default();
         let mut extensions = Extensions::new();

@@ -16,7 +16,7 @@ const GLB_HEADER_BYTES: usize = 12;
 pub(crate) struct Parts<'a> {
     /// Typed JSON.
     pub root: Root,
-    /// Its skins as untyped JSON: an invalid skin is an error only if a mesh uses it.
+    /// Skins as untyped JSON: an invalid skin is an error only if a mesh uses it.
     pub skins: Vec<Value>,
     /// The binary chunk of a .glb.
     pub blob: Option<&'a [u8]>,

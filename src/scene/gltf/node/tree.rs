@@ -16,7 +16,7 @@ pub(crate) struct PlacedNode<'a> {
     pub index: usize,
     /// The node.
     pub node: &'a Node,
-    /// Its parent, as an index into the list of all visible nodes; `None` for a root.
+    /// Index of the parent in the list of all visible nodes; `None` for a root.
     pub parent: Option<usize>,
     /// Transform from node space to world space.
     pub world_from_node: DAffine3,
