@@ -9,8 +9,8 @@ use crate::scene::Scene;
 /// A scene whose light is stored in one texture (a lightmap).
 #[derive(Clone, Debug, Default)]
 pub struct Lightmap {
-    /// The scene, not cut into elements. Backs of double-sided triangles are triangles of their own, as in a bake;
-    /// vertices are separate at seams of the texture.
+    /// The scene, not cut into elements. Backs of double-sided triangles are separate triangles, as in a bake. Vertices
+    /// are separate at seams of the texture.
     pub scene: Scene,
     /// Texture coordinates `[v]`, 0 to 1 from the top left corner.
     pub coordinates: Vec<Vec2>,

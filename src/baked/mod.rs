@@ -1,6 +1,6 @@
 //! Floor 2.5: a scene with its light. It is the result of a bake and the input of every picture.
 //!
-//! The triangles of a [`BakedScene`] are the *elements*; the back of a double-sided surface is a triangle of its own.
+//! The triangles of a [`BakedScene`] are the *elements*; the back of a double-sided surface is a separate triangle.
 //! Everything that works on a [`Scene`](crate::scene::Scene) (rays, shadows, `info`) therefore works on a bake.
 //!
 //! * `baked_scene`: the elements with their light. `bisection_trees`: how they come from input triangles. `pairing`:

@@ -1,10 +1,10 @@
 //! The forest of all bisection trees of a mesh, with the corners of every node.
 //!
-//! The trees are those that the bake keeps ([`BisectionTrees`]). For files that do not record them they are guessed:
-//! the elements of an input triangle follow each other, halves of halves (`patch::subdivide`), so two consecutive
-//! triangles that share an edge from the middle of their common base to their common apex are halves of one triangle,
-//! and so on upwards. A few pairs of triangles that were never bisected look like this too. That does no harm, because
-//! a function that is linear on both is linear on the triangle that they make up.
+//! The trees are those that the bake recorded ([`BisectionTrees`]). For files without records they are guessed. The
+//! elements of an input triangle are consecutive, halves of halves (`patch::subdivide`). So if two consecutive
+//! triangles share an edge from the middle of their common base to their common apex, they are taken as halves of one
+//! triangle; the same test is applied to the joined triangles. A few pairs of triangles that were never bisected pass
+//! it too. That does no harm, because a function that is linear on both is linear on their union.
 
 use glam::{IVec2, Vec2, Vec3, Vec4};
 

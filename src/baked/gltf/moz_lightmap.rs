@@ -34,7 +34,7 @@ pub(super) fn white(lightmap: &Lightmap, exposure: f32) -> f32 {
 }
 
 /// Returns the scene at an exposure: emission is scaled, there are no lights, and no material is double-sided, because
-/// backs are triangles of their own.
+/// backs are separate triangles.
 pub(super) fn shown(lightmap: &Lightmap, exposure: f32) -> Scene {
     let mut scene = lightmap.scene.clone();
     scene.lights.clear();

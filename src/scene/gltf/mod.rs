@@ -10,7 +10,7 @@
 //! | `mesh` | primitives to triangles in their rest pose, placed in the world |
 //! | `light`, `camera` | lights, cameras, light groups |
 //!
-//! `populate` adds what the nodes carry, `scene_choice` selects one of the file's scenes.
+//! `populate` adds the content of the nodes to the scene; `scene_choice` selects one of the file's scenes.
 //!
 //! Of the gltf crate only the typed JSON is used: its accessors and its importer can panic on broken files. Here every
 //! file either loads or yields one [`LoadError`].

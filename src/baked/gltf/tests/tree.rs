@@ -1,4 +1,4 @@
-//! Nodes of a written file: their tree, their transforms, what they carry.
+//! Tests of the nodes of a written file: tree, transforms, meshes, lights and cameras.
 
 use std::sync::Arc;
 

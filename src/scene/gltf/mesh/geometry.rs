@@ -25,7 +25,7 @@ pub(crate) struct Geometry {
     pub irradiance: Vec<VertexAttribute>,
     /// Joints and weights of each of `vertices`; empty if the primitive is not skinned.
     pub influences: Vec<Vec<Influence>>,
-    /// True if it is the back of a double-sided surface, which a bake writes as triangles of its own.
+    /// True if it is the back of a double-sided surface, which a bake writes as separate triangles.
     pub is_back: bool,
     /// Record of a bake about its triangles; `None` if no bake wrote the primitive.
     pub elements: Option<ElementRecord>,
