@@ -1,4 +1,4 @@
-//! Patches: clusters of neighbouring elements that face alike.
+//! Patches: clusters of neighbouring elements with similar normals.
 //!
 //! Real scenes have many tiny triangles, and a hemicube for each would be too many. A patch is a set of elements of one
 //! instance and material, within one cell of a grid and with normals in one bin, that are connected by shared edges or
@@ -14,11 +14,12 @@ use super::mesh::{Element, Patch, PatchMesh};
 use crate::base::ids::{ElementId, PatchId};
 use crate::scene::{Scene, normal_of};
 
-/// Normals are binned on the faces of a cube of this many cells a side: clusters span about 40 degrees.
+/// Scale of the cube from -1 to 1 on which normals are binned by rounding: 3 x 3 bins a face, each about 40 degrees
+/// wide.
 const NORMAL_CELLS: f32 = 1.5;
 
-/// Elements within this share of a patch size are joined without a shared edge: many scenes consist of separate small
-/// pieces.
+/// Cell size of a grid, relative to the patch size. Elements whose centroids share a cell are joined even without a
+/// shared edge, because many scenes consist of separate small pieces.
 const CLOSE: f32 = 0.25;
 
 /// Groups the elements of `mesh` into patches about `patch_size` metres wide.
@@ -42,7 +43,7 @@ struct Key {
 
 fn key_of(mesh: &PatchMesh, scene: &Scene, element: &Element, patch_size: f32) -> Key {
     let triangle = &scene.triangles[element.triangle.index()];
-    // An odd shift keeps walls at round coordinates away from the cell borders.
+    // An irregular shift keeps walls at round coordinates away from the cell borders.
     let shifted = mesh.centroid(element) / patch_size + Vec3::new(0.137, 0.291, 0.413);
     let normal = normal_of(mesh.corners(element));
     let on_cube = normal / normal.abs().max_element().max(1e-6);
@@ -119,7 +120,8 @@ fn list_members(mesh: &mut PatchMesh) {
     }
 }
 
-/// Disjoint sets with path halving; the smaller root stays root, so numbering does not depend on the order of joins.
+/// Disjoint sets with path halving. The root of a set is its smallest element, so numbering does not depend on the
+/// order of the joins.
 struct UnionFind(Vec<u32>);
 
 impl UnionFind {

@@ -1,4 +1,4 @@
-//! A scene becomes a mesh: elements, their optics, patches.
+//! Cutting a scene into a mesh of elements with their optics and patches.
 
 use super::mesh::{MeshSettings, PatchMesh};
 use super::splits::Splits;
@@ -18,8 +18,8 @@ impl PatchMesh {
         Self::refined(scene, settings, &mut Splits::default())
     }
 
-    /// Cuts a scene, and halves the edges of `splits` beyond the element size. Edges that have to be halved as well to
-    /// keep the mesh conforming are added to `splits`.
+    /// Cuts a scene, and also halves the edges of `splits`, which may be shorter than the element size. Further edges
+    /// that must be halved to keep the mesh conforming are added to `splits`.
     ///
     /// # Errors
     /// Returns an error as [`Self::new`] does.

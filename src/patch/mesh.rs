@@ -49,7 +49,7 @@ pub struct PatchMesh {
 /// A point at which irradiance is stored, shared by all elements that meet there with one shading normal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightVertex {
-    /// Metres.
+    /// Position, metres.
     pub position: Vec3,
     /// Unit shading normal.
     pub normal: Vec3,
@@ -77,15 +77,15 @@ pub fn light_key(position: Vec3, normal: Vec3) -> LightKey {
 /// The smallest receiver of light: a triangle that is a part of one input triangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Element {
-    /// Its vertices `[v]`, counter-clockwise seen from the side that reflects.
+    /// Vertices `[v]`, counter-clockwise as seen from the side that reflects.
     pub vertices: [u32; 3],
-    /// The input triangle it is a part of.
+    /// The input triangle that contains it.
     pub triangle: TriangleId,
-    /// It lies on the back of a double-sided triangle.
+    /// True if it lies on the back of a double-sided triangle.
     pub is_back: bool,
     /// The patch it shoots with.
     pub patch: PatchId,
-    /// Solid area: area x share that is no hole, square metres.
+    /// Solid area, square metres: area x mean opacity.
     pub area: f32,
     /// Mean diffuse reflectance of the solid part, per channel.
     pub reflectance: Vec3,
@@ -95,7 +95,7 @@ pub struct Element {
     pub group: Option<GroupId>,
 }
 
-/// Neighbouring elements that face alike and shoot as one.
+/// Neighbouring elements with similar normals that shoot as one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Patch {
     /// Its elements: a range of [`PatchMesh::members`].
@@ -111,9 +111,9 @@ pub struct Root {
     pub node: Node,
     /// First front element.
     pub first_element: u32,
-    /// Elements on one side. The back of front element `e` is `e + num_elements`, if there are backs.
+    /// Number of elements on one side. The back of front element `e` is `e + num_elements`, if there are backs.
     pub num_elements: u32,
-    /// The triangle is double-sided, so there are backs.
+    /// True if the triangle is double-sided and therefore has backs.
     pub has_backs: bool,
 }
 
@@ -155,7 +155,7 @@ impl PatchMesh {
         }
     }
 
-    /// The front element at a barycentric position of an input triangle.
+    /// Returns the front element at a barycentric position of an input triangle.
     #[must_use]
     pub fn element_at(&self, triangle: TriangleId, barycentric: Vec3) -> ElementId {
         ElementId(self.roots[triangle.index()].node.element_at(&self.tree, barycentric))

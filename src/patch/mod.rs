@@ -1,9 +1,9 @@
-//! Floor 2: the scene cut up for light: elements receive, patches shoot, light vertices carry the result.
+//! Floor 2: the scene divided for light: elements receive, patches shoot, light vertices store the result.
 //!
 //! A [`PatchMesh`] depends on geometry, reflectance and emission only. `form_factor` draws its elements into item
 //! buffers and `radiosity` solves on them. Deliberately absent: any light.
 //!
-//! * `mesh`: the mesh itself. `cut`: a scene becomes a mesh.
+//! * `mesh`: the mesh itself. `cut`: turns a scene into a mesh.
 //! * `subdivide`: bisection of triangles into elements; `tree`: the bisection trees; `splits`: edges to bisect beyond
 //!   the element size; `propagate`: what keeps the mesh conforming then.
 //! * `optics`: reflectance and exitance of elements. `cluster`: elements into patches.

@@ -38,7 +38,7 @@ fn evaluate_element(element: &mut Element, vertices: &[Vertex], scene: &Scene) {
         reflected += point.opacity * point.reflectance;
         emitted += point.opacity * point.emission;
     }
-    // An element whose samples are all holes may still be met by a ray or pixel, so its area is not 0.
+    // A ray or pixel may still hit an element whose samples are all holes, so its area is not 0.
     let solid = solid.max(0.5);
     element.area = area_of(corners.map(|v| v.position)) * solid / num_samples as f32;
     element.reflectance = reflected / solid;
@@ -46,7 +46,7 @@ fn evaluate_element(element: &mut Element, vertices: &[Vertex], scene: &Scene) {
     element.group = if element.exitance.max_element() > 0.0 { material.group } else { None };
 }
 
-/// The material may vary over the element, so that its mean needs several samples.
+/// Returns true if the material may vary over the element. Its mean then needs several samples.
 fn varies(material: &Material, corners: [&Vertex; 3]) -> bool {
     material.base_colour_texture.is_some()
         || material.emissive_texture.is_some()

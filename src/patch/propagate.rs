@@ -1,4 +1,4 @@
-//! Conforming refinement: edges whose bisection follows from that of others.
+//! Conforming refinement: finds the further edges that must be halved when some edges are halved.
 //!
 //! A triangle is only ever halved at its longest edge. Where another of its edges is to be halved, the longest edge has
 //! to be halved first, and so on through the neighbours, until every halved edge is halved in all triangles that share
@@ -11,7 +11,7 @@ use super::splits::Splits;
 use super::subdivide::{MeshError, longest_edge, subdivide};
 use crate::scene::Scene;
 
-/// Most cuts; each one propagates splits by one triangle.
+/// Largest number of cuts; each one propagates splits by one triangle.
 const MAX_CUTS: usize = 1000;
 
 /// Cuts the scene at the edges of `splits` and at those that keep the mesh conforming, which are added to `splits`.

@@ -16,13 +16,13 @@ impl Splits {
         self.0.insert(edge(a, b))
     }
 
-    /// The edge between two positions is to be halved.
+    /// Returns true if the edge between two positions is to be halved.
     #[must_use]
     pub fn contains(&self, a: Vec3, b: Vec3) -> bool {
         !self.0.is_empty() && self.0.contains(&edge(a, b))
     }
 
-    /// No edge is to be halved.
+    /// Returns true if no edge is to be halved.
     pub(super) fn is_empty(&self) -> bool {
         self.0.is_empty()
     }

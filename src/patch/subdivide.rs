@@ -18,7 +18,7 @@ use super::tree::Node;
 use crate::base::ids::{PatchId, TriangleId};
 use crate::scene::{Scene, Vertex};
 
-/// Most elements: an id must fit in a node beside the depth and the kind.
+/// Largest number of elements: an id must fit in a node beside the depth and the kind.
 const MAX_ELEMENTS: usize = 1 << 26;
 
 /// Deepest regular tree that a node can hold.
@@ -30,7 +30,7 @@ pub enum MeshError {
     /// The element size is too small.
     #[error("an element size of {element_size} m gives more than {max} elements; choose a larger one", max = MAX_ELEMENTS)]
     TooManyElements {
-        /// Metres.
+        /// Element size, metres.
         element_size: f32,
     },
     /// There is no surface to light.
@@ -162,7 +162,7 @@ impl<'a> Cutter<'a> {
             Some(&light_vertex) => light_vertex,
             None => self.add_light_midpoint(light_pair),
         };
-        // Position and normal come from the light vertices, so that the two sides of a texture seam stay one.
+        // Position and normal come from the light vertices, so that both sides of a texture seam keep one light vertex.
         let LightVertex { position, normal } = self.mesh.light_vertices[light_vertex as usize];
         let uv = [0, 1].map(|set| (low.uv[set] + high.uv[set]) * 0.5);
         let vertex = Vertex { position, normal, uv, colour: (low.colour + high.colour) * 0.5 };

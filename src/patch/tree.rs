@@ -16,12 +16,12 @@ use glam::Vec3;
 pub struct Node(u32);
 
 impl Node {
-    /// A regular tree.
+    /// Returns a regular tree.
     pub(super) fn regular(first_element: u32, depth: u32) -> Self {
         Self(first_element << 6 | depth << 2)
     }
 
-    /// A triangle halved opposite corner `apex`, whose children are at `children` and `children + 1`.
+    /// Returns a triangle halved opposite corner `apex`, with the children `children` and `children + 1`.
     pub(super) fn split(apex: usize, children: u32) -> Self {
         Self(children << 2 | (apex as u32 + 1))
     }

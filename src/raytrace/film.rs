@@ -40,34 +40,34 @@ pub struct FilmNoise {
 }
 
 impl Film {
-    /// A picture of `size` pixels without samples.
+    /// Returns a picture of `size` pixels without samples.
     #[must_use]
     pub fn new(size: [u32; 2]) -> Self {
         Self { size, samples: 0, sums: vec![[Vec4::ZERO; 2]; size[0] as usize * size[1] as usize] }
     }
 
-    /// Pixels across and down.
+    /// Width and height, pixels.
     #[must_use]
     pub fn size(&self) -> [u32; 2] {
         self.size
     }
 
-    /// Rays a pixel so far.
+    /// Number of rays a pixel so far.
     #[must_use]
     pub fn samples(&self) -> u32 {
         self.samples
     }
 
-    /// Linear radiance before exposure, premultiplied by the fourth channel, the share of the pixel that is covered;
-    /// all 0 without samples.
+    /// Linear radiance before exposure, premultiplied by the fourth channel, which is the share of the pixel that is
+    /// covered. All values are 0 without samples.
     #[must_use]
     pub fn radiance(&self) -> Vec<[f32; 4]> {
         let count = self.samples.max(1) as f32;
         self.sums.iter().map(|[even, odd]| ((*even + *odd) / count).to_array()).collect()
     }
 
-    /// Adds `samples` rays a pixel through a box filter. Returns false if it was cancelled, and leaves the picture as
-    /// it was.
+    /// Adds `samples` rays a pixel through a box filter. If it is cancelled, the picture stays unchanged and the result
+    /// is false.
     ///
     /// `radiance` returns the radiance along a camera ray, or `None` if the ray leaves the scene.
     pub(crate) fn refine(
@@ -164,7 +164,7 @@ impl<'a> RaySetup<'a> {
         Self { camera, size: Vec2::new(size[0] as f32, size[1] as f32) }
     }
 
-    /// The ray through a point of a pixel, given as a point of the unit square.
+    /// Returns the ray through a point of a pixel, given as a point of the unit square.
     fn ray(&self, pixel: [u32; 2], square: Vec2) -> Ray {
         let at = (Vec2::new(pixel[0] as f32, pixel[1] as f32) + square) / self.size;
         let on_screen = Vec2::new((2.0 * at.x - 1.0) * self.size.x / self.size.y, 1.0 - 2.0 * at.y);

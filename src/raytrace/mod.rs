@@ -6,8 +6,8 @@
 //! leaves the geometric surface. Pictures are linear radiance. Deliberately absent: the GPU, exposure and tone mapping,
 //! light of punctual lights by way of mirrors.
 //!
-//! * `ray`, `sampler`, `settings`: what all of it shares.
-//! * `surface/`: what a ray meets, and how light scatters there.
+//! * `ray`, `sampler`, `settings`: types used by all other modules.
+//! * `surface/`: the surface at a hit, and how light scatters there.
 //! * `light/`: lamps and punctual lights, and how one of many is chosen.
 //! * `path/`: rays through the lit scene, and path tracing.
 //! * `caustics/`: the light that a bake lacks because it is cast by mirrors and panes.

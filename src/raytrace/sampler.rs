@@ -13,7 +13,7 @@ use crate::base::sampling::{hash, unit_float};
 /// The random numbers of one path, in the order of its decisions.
 #[derive(Clone, Debug)]
 pub(crate) struct Sampler {
-    /// One for each pixel or point.
+    /// Seed of the pixel or point.
     seed: u32,
     /// Number of the path at this pixel or point.
     index: u32,
@@ -21,7 +21,7 @@ pub(crate) struct Sampler {
 }
 
 impl Sampler {
-    /// The numbers of the `index`-th path at the pixel or point with this seed.
+    /// Returns the numbers of the `index`-th path at the pixel or point with this seed.
     pub(crate) fn new(seed: u32, index: u32) -> Self {
         Self { seed: hash(seed), index, num_decisions: 0 }
     }
@@ -55,7 +55,7 @@ impl Sampler {
 
 /// Flips each bit by a hash of the bits above it.
 fn owen_scrambled(bits: u32, seed: u32) -> u32 {
-    // Laine and Karras 2011 scramble from the lowest bit up.
+    // The hash of Laine and Karras 2011 scrambles from the lowest bit up.
     let mut x = bits.reverse_bits();
     x = x.wrapping_add(seed);
     x ^= x.wrapping_mul(0x6c50_b47c);

@@ -5,12 +5,13 @@ use glam::Vec3;
 /// Settings of path tracing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PathSettings {
-    /// Paths a pixel or point.
+    /// Number of paths a pixel or point.
     pub samples: u32,
-    /// Most reflections between a lamp and the camera or the measured point; 0 leaves direct light at points, and only
-    /// the lamps in pictures.
+    /// Largest number of reflections between a lamp and the camera or the measured point. With 0, points receive direct
+    /// light only, and pictures show only the lamps.
     pub max_bounces: u32,
-    /// Metals and glass send light on. False gives what radiosity solves, where metals absorb and glass is opaque.
+    /// True if metals and glass reflect and transmit light. False gives the solution of radiosity, where metals absorb
+    /// and glass is opaque.
     pub has_specular: bool,
     /// Different seeds give independent estimates.
     pub seed: u32,
@@ -25,7 +26,7 @@ impl Default for PathSettings {
 /// Settings of two-pass ray tracing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TwoPassSettings {
-    /// Camera rays a pixel.
+    /// Number of camera rays a pixel.
     pub samples: u32,
     /// Source of the light that does not come straight from the lights.
     pub ambient: Ambient,
@@ -39,17 +40,17 @@ impl Default for TwoPassSettings {
     }
 }
 
-/// The light at a surface that is not traced to a light.
+/// Source of the light at a surface beyond traced direct light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ambient {
-    /// There is none.
+    /// No ambient light.
     None,
     /// Equal everywhere: the radiance of ideal white paint. Only perfect mirrors and panes are followed (Whitted 1980).
     Constant(Vec3),
     /// The indirect light of the bake.
     Indirect {
-        /// Rays of the final gather from the first diffuse surface, which take the light stored at the next one; 0
-        /// takes the light stored at the first.
+        /// Number of rays of the final gather at the first diffuse surface, which use the light stored at the next one.
+        /// 0 uses the light stored at the first.
         final_gather: u32,
     },
     /// All light of the bake, direct light included; lights are not traced.

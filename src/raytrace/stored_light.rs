@@ -9,11 +9,11 @@ use crate::scene::Scene;
 
 /// Irradiance that the bake lacks, at its vertices `[v]`, lux per channel.
 pub(crate) struct CausticLight {
-    /// Straight from lights, through panes.
+    /// Irradiance straight from lights, through panes.
     pub through_panes: Vec<Vec3>,
-    /// From lights, by way of mirrors.
+    /// Irradiance from lights by way of mirrors.
     pub by_mirrors: Vec<Vec3>,
-    /// After at least one diffuse reflection.
+    /// Irradiance after at least one diffuse reflection.
     pub reflected: Vec<Vec3>,
 }
 
@@ -22,9 +22,9 @@ pub(crate) struct StoredLight<'a> {
     scene: &'a Scene,
     /// Straight from the lights `[v]`, lux per channel.
     direct: Vec<Vec3>,
-    /// After at least one reflection `[v]`.
+    /// Irradiance after at least one reflection `[v]`.
     indirect: Vec<Vec3>,
-    /// From lights by way of mirrors `[v]`; 0 until [`Self::add`].
+    /// Irradiance from lights by way of mirrors `[v]`; 0 until [`Self::add`].
     by_mirrors: Vec<Vec3>,
 }
 
@@ -62,7 +62,7 @@ impl<'a> StoredLight<'a> {
         add(&mut self.indirect, &caustics.reflected);
     }
 
-    /// The triangle that stores the light of one side of a surface.
+    /// Returns the triangle that stores the light of one side of a surface.
     pub(crate) fn side(&self, triangle: TriangleId, is_front: bool) -> TriangleId {
         self.scene.on_side(triangle, Vec3::ZERO, is_front).0
     }

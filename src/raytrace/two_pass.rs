@@ -1,4 +1,4 @@
-//! The second pass: ray tracing that takes its ambient light from radiosity.
+//! The second pass: ray tracing with ambient light from radiosity.
 //!
 //! Light between the camera and the first diffuse surface depends on the view and is traced: direct light with shadow
 //! rays, mirrors, glossy metal, panes. Indirect light at that surface does not depend on the view and is solved in the
@@ -76,12 +76,13 @@ impl<'a> SecondPass<'a> {
         Some(Self { rays, stored, settings: *settings })
     }
 
-    /// Adds `samples` rays a pixel to a picture. Returns false if it was cancelled, and leaves the picture as it was.
+    /// Adds `samples` rays a pixel to a picture. If it is cancelled, the picture stays unchanged and the result is
+    /// false.
     pub fn refine(&self, film: &mut Film, camera: &Camera, samples: u32, progress: &dyn Progress) -> bool {
         film.refine(camera, samples, self.settings.seed, progress, |ray, sampler| self.seen(ray, sampler))
     }
 
-    /// Radiance along a camera ray, through mirrors. `None` if the ray leaves the scene.
+    /// Returns the radiance along a camera ray, through mirrors, or `None` if the ray leaves the scene.
     fn seen(&self, ray: Ray, sampler: &mut Sampler) -> Option<Vec3> {
         let mut radiance = Vec3::ZERO;
         let prepare = |surface: &mut Surface| self.simplify(surface);
@@ -92,7 +93,7 @@ impl<'a> SecondPass<'a> {
         (num_met > 0).then_some(radiance)
     }
 
-    /// Direct light is traced, and not taken from the bake.
+    /// Returns true if direct light is traced and not taken from the bake.
     fn traces_lights(&self) -> bool {
         self.settings.ambient != Ambient::All
     }

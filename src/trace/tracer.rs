@@ -6,11 +6,11 @@ use super::wide::{Probe, WideTree};
 use crate::base::ids::TriangleId;
 use crate::scene::{AlphaMode, Scene, edge_cross};
 
-/// Traces rays through one scene. The tree holds its fronts only, so that each surface is hit once.
+/// Traces rays through one scene. The tree holds only the fronts of the scene, so that each surface is hit once.
 pub struct Tracer<'a> {
     scene: &'a Scene,
     tree: WideTree,
-    /// In the order in which the tree numbers the triangles.
+    /// Leaves, in the order in which the tree numbers the triangles.
     leaves: Vec<Leaf>,
 }
 
@@ -18,23 +18,23 @@ pub struct Tracer<'a> {
 #[derive(Clone, Copy)]
 struct Leaf {
     triangle: TriangleId,
-    /// Its material has no alpha, so that every ray that meets it ends.
+    /// True if its material has no alpha, so that every ray that hits it ends.
     is_opaque: bool,
 }
 
-/// Share of light that counts as none.
+/// Transmittance below this counts as zero.
 const DARK: f32 = 1e-3;
 
-/// The first surface that a ray meets.
+/// The nearest surface along a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Distance along the ray, in lengths of its direction vector.
+    /// Distance along the ray, in multiples of the length of its direction vector.
     pub distance: f32,
     /// The triangle.
     pub triangle: TriangleId,
     /// Barycentric coordinates of the hit.
     pub barycentric: Vec3,
-    /// The ray comes from the front.
+    /// True if the ray comes from the front.
     pub is_front: bool,
 }
 
@@ -62,15 +62,16 @@ impl<'a> Tracer<'a> {
         self.scene
     }
 
-    /// The nearest surface along `direction` (any length) within `max_distance`. Rays pass through cut-outs, and
-    /// through surfaces that blend with less than half opacity.
+    /// Returns the nearest surface along `direction` (any length) within `max_distance`. Rays pass through cut-outs,
+    /// and through blended surfaces with less than half opacity.
     #[must_use]
     pub fn nearest(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Option<Hit> {
         self.nearest_solid(origin, direction, max_distance, |_| 0.5)
     }
 
-    /// The nearest surface as by [`Tracer::nearest`], with the smallest opacity that counts as solid, above 0, by
-    /// triangle. If it is uniformly random in 0..1, a surface stops the share of all rays that equals its opacity.
+    /// Returns the nearest surface like [`Tracer::nearest`], where `solid_from` gives for each triangle the smallest
+    /// opacity that counts as solid, above 0. If it is uniformly random in 0..1, the probability that a surface stops a
+    /// ray equals its opacity.
     #[must_use]
     pub fn nearest_solid(
         &self,
@@ -98,8 +99,8 @@ impl<'a> Tracer<'a> {
         Some(Hit { distance, triangle, barycentric: Vec3::new(1.0 - u - v, u, v), is_front })
     }
 
-    /// Share of light that passes along `direction` up to `max_distance`: the product of 1 - alpha over all surfaces on
-    /// the way, 0 if one of them is opaque.
+    /// Returns the share of light that passes along `direction` up to `max_distance`: the product of 1 - alpha over all
+    /// surfaces on the way, 0 if one of them is opaque.
     #[must_use]
     pub fn transmittance(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> f32 {
         let mut passing = 1.0;
@@ -114,8 +115,9 @@ impl<'a> Tracer<'a> {
         if passing >= DARK { passing } else { 0.0 }
     }
 
-    /// Share of light that passes, per channel, as by [`Tracer::transmittance`]. `pane` returns the share that passes a
-    /// triangle at a point with some barycentric coordinates, or `None` if its alpha decides.
+    /// Returns the share of light that passes, per channel, like [`Tracer::transmittance`]. `pane` returns the share
+    /// that passes through a triangle at a point with the given barycentric coordinates, or `None` if its alpha
+    /// decides.
     #[must_use]
     pub fn coloured_transmittance(
         &self,
@@ -146,7 +148,7 @@ impl<'a> Tracer<'a> {
     }
 }
 
-/// Indices of the bits that are set.
+/// Returns the indices of the set bits.
 fn lanes(mut bits: u32) -> impl Iterator<Item = usize> {
     std::iter::from_fn(move || {
         let lane = bits.trailing_zeros() as usize;

@@ -3,9 +3,10 @@
 //! Radiosity is solved for this light alone, with form factors that are extended by mirrors: rays from each element
 //! pass through mirrors and panes to the diffuse surfaces that these show.
 //!
-//! Equation: X = T rho X + M rho E - G E + X_lamps, where X is the missing irradiance, E the stored one, T the share of
-//! light that arrives along all rays, M along those that met a mirror or a pane, and X_lamps what arrives from lamps by
-//! way of mirrors and panes. G takes back what panes reflect in the first pass, which treats them as paint.
+//! Equation: X = T rho X + M rho E - G E + X_lamps, where X is the missing irradiance and E the stored one. T is the
+//! share of light that arrives along all rays, M the share along rays that hit a mirror or a pane, and X_lamps the
+//! irradiance from lamps by way of mirrors and panes. G subtracts what panes reflect in the first pass, which treats
+//! them as paint.
 //!
 //! Sources: Wallace, Cohen, Greenberg 1987, "A Two-pass Solution to the Rendering Equation"; Sillion and Puech 1989, "A
 //! General Two-Pass Method Integrating Specular and Diffuse Reflection" (extended form factors).
@@ -25,32 +26,33 @@ use crate::raytrace::sampler::Sampler;
 use crate::raytrace::stored_light::{CausticLight, StoredLight};
 use crate::scene::{Scene, area_of, normal_of};
 
-/// Extended form factors in memory.
+/// Largest number of extended form factors in memory.
 const MOST_FACTORS: usize = 1 << 22;
 
-/// Fewest and most rays from an element.
+/// Smallest and largest number of rays from an element.
 const NUM_RAYS: [usize; 2] = [4, 128];
 
-/// Rays that a value at a vertex should rest on. If elements have fewer, values are averaged over neighbours.
+/// Number of rays that the value at a vertex should be based on. If elements have fewer, values are averaged over
+/// neighbours.
 const SMOOTH_RAYS: usize = 256;
 
-/// Most passes over all form factors.
+/// Largest number of passes over all form factors.
 const MOST_PASSES: u32 = 64;
 
 /// Solving ends when a pass changes no element by more than this share of the mean.
 const TOLERANCE: f32 = 1e-3;
 
-/// What an element receives.
+/// The light that an element receives.
 struct Element {
     /// Straight from lights, through panes.
     through_panes: Vec3,
-    /// Stored light by way of mirrors and panes, less what panes reflect as paint in the first pass.
+    /// Stored light by way of mirrors and panes, minus what panes reflect as paint in the first pass.
     stored: Vec3,
-    /// Sides of triangles that it sees, each with the share of its irradiance that arrives here.
+    /// Sides of triangles in view of the element, each with the share of its irradiance that arrives here.
     factors: Vec<(u32, Vec3)>,
 }
 
-/// The scene has metal or glass.
+/// Returns true if the scene has metal or glass.
 pub(crate) fn has_mirrors(scene: &Scene) -> bool {
     scene.materials.iter().any(|material| !material.unlit && (material.metallic > 0.0 || material.transmission > 0.0))
 }
@@ -98,7 +100,7 @@ fn elements(
 }
 
 impl Element {
-    /// What arrives along `num_rays` rays from points of a triangle, cosine-distributed about its front.
+    /// Returns what arrives along `num_rays` rays from points of a triangle, cosine-distributed about its front.
     fn seen_from(rays: &RayCaster<'_>, stored: &StoredLight<'_>, triangle: TriangleId, num_rays: u32) -> Self {
         let corners = rays.scene().corners(triangle);
         let normal = normal_of(corners);

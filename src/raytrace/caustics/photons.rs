@@ -1,5 +1,5 @@
-//! Light of lamps by way of mirrors, by photons shot from the lamps: rays from elements seldom find a small lamp in a
-//! mirror.
+//! Light of lamps by way of mirrors, computed with photons shot from the lamps. Rays from elements seldom find a small
+//! lamp in a mirror.
 //!
 //! A photon starts at a random point of a lamp in a cosine-distributed direction and carries the flux Phi = pi L A / p
 //! of the lamp that was chosen with probability p. Where it lands on a diffuse surface after a reflection, the triangle
@@ -18,16 +18,16 @@ use crate::raytrace::path::specular_chain::follow;
 use crate::raytrace::ray::{Ray, RaySource};
 use crate::raytrace::sampler::Sampler;
 
-/// Photons shot between two counts of those that have landed.
+/// Photons shot before those that have landed are counted again.
 const BATCH: u32 = 1 << 17;
 
 /// Photons in one task of a core.
 const CHUNK: u32 = 1 << 12;
 
-/// Shooting ends when so many photons have landed.
+/// Shooting ends when this many photons have landed.
 const ENOUGH: usize = 1 << 19;
 
-/// Most photons that are shot.
+/// Largest number of photons that are shot.
 const MOST: u32 = 1 << 21;
 
 /// Seed of the sequence of points that photons start from.
@@ -60,7 +60,7 @@ pub(crate) fn flux_by_mirrors(
     Some(flux)
 }
 
-/// The sides on which photons of these numbers land, with their flux.
+/// Returns the sides on which the photons with these numbers land, with their flux.
 fn shoot(
     rays: &RayCaster<'_>,
     numbers: std::ops::Range<u32>,

@@ -1,4 +1,4 @@
-//! Rays that leave punctual lights, to find surfaces that a light stands close to.
+//! Rays that leave punctual lights, used to find surfaces close to a light.
 
 use std::f32::consts::TAU;
 
@@ -13,7 +13,7 @@ use crate::scene::{Arrival, Light, LightKind, Scene};
 
 /// The directions in which the point and spot lights of a scene shine.
 pub(crate) struct Beams {
-    /// By light `[l]`; `None` for a directional light. Empty if there are no others.
+    /// Beams by light `[l]`; `None` for a directional light. Empty if all lights are directional.
     beams: Vec<Option<Beam>>,
 }
 
@@ -46,18 +46,18 @@ impl Beams {
         Self { beams }
     }
 
-    /// There are no point or spot lights.
+    /// Returns true if there are no point or spot lights.
     pub(crate) fn is_empty(&self) -> bool {
         self.beams.is_empty()
     }
 
-    /// A ray of one of the lights, chosen by power, and the number of the light.
+    /// Returns a ray of one of the lights, chosen by power, and the number of the light.
     pub(crate) fn ray(&self, sampler: &mut Sampler) -> Option<(usize, Ray)> {
         let (light, beam) = self.choose(sampler.number())?;
         Some((light, beam.ray(sampler)))
     }
 
-    /// One of the lights, chosen by power.
+    /// Chooses one of the lights by power.
     fn choose(&self, mut number: f32) -> Option<(usize, &Beam)> {
         let mut last = None;
         for (light, beam) in self.beams.iter().enumerate() {
@@ -71,7 +71,7 @@ impl Beams {
         last
     }
 
-    /// Density with which a ray of `light` finds `surface`, per steradian at the point that meets it at `distance`.
+    /// Density with which a ray of `light` finds `surface`, per steradian at the point that hits it at `distance`.
     ///
     /// Equation: p = p_light cos_lit / r_light^2 x r^2 / cos_seen, from solid angle at the light to area to solid angle
     /// at the point.

@@ -76,7 +76,7 @@ impl LightBounds {
         self.power * cos_emitter * cos_receiver / distance_squared.max(radius_squared).max(f32::MIN_POSITIVE)
     }
 
-    /// For this point the lamps differ in little but their power.
+    /// Returns true if the lamps differ, as seen from this point, in hardly anything but their power.
     pub(crate) fn are_alike(&self, point: Vec3) -> bool {
         let radius_squared = 0.25 * (self.high - self.low).length_squared();
         self.cos_spread >= SAME_WAY && point.distance_squared(self.centre()) > FAR * FAR * radius_squared
@@ -91,7 +91,7 @@ impl LightBounds {
             TAU * (1.0 - cos) + 0.5 * PI * (2.0 * end * sin - (spread - 2.0 * end).cos() - 2.0 * spread * sin + cos);
         let size = self.high - self.low;
         let area = 2.0 * (size.x * size.y + size.y * size.z + size.z * size.x);
-        // A flat or thin box must not cost nothing.
+        // The cost of a flat or thin box must not be 0.
         self.power * directions * (area + 1e-3 * size.length_squared())
     }
 }

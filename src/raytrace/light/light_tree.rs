@@ -83,7 +83,7 @@ impl LightTree {
         Some((lamp as usize, probability))
     }
 
-    /// The probability with which [`Self::choose`] chooses `lamp`.
+    /// Returns the probability with which [`Self::choose`] chooses `lamp`.
     pub(crate) fn probability(&self, lamp: usize, point: Vec3, normal: Vec3) -> f32 {
         if self.nodes[0].bounds.importance(point, normal) <= 0.0 {
             return 0.0;
@@ -187,7 +187,7 @@ mod tests {
             let tree = LightTree::new(&lamps);
             let mut counts = vec![0u32; lamps.len()];
             for i in 0..TRIES {
-                // The bounds of several lamps may reach the point where no lamp does.
+                // The bounds of several lamps may reach a point that no single lamp reaches.
                 let Some((lamp, probability)) = tree.choose(point, normal, r2(i, 5).x) else { continue };
                 assert!((tree.probability(lamp, point, normal) / probability - 1.0).abs() < 1e-4);
                 counts[lamp] += 1;

@@ -42,7 +42,7 @@ pub(crate) struct Emission {
     pub point: Vec3,
     /// Unit normal of the side that it leaves.
     pub normal: Vec3,
-    /// Unit vector.
+    /// Unit vector in which the light leaves.
     pub direction: Vec3,
     /// Flux per channel of all emitters, estimated by this sample.
     pub flux: Vec3,
@@ -50,7 +50,7 @@ pub(crate) struct Emission {
 
 /// A point on an emissive triangle, as seen from another point.
 pub(crate) struct EmitterSample {
-    /// On the triangle.
+    /// Point on the triangle.
     pub point: Vec3,
     /// Unit normal of the visible side.
     pub normal: Vec3,
@@ -131,8 +131,8 @@ impl<'a> Lights<'a> {
         })
     }
 
-    /// Density per steradian with which [`Self::sample_emitter`] chooses a direction from `place` that meets `triangle`
-    /// at `distance`.
+    /// Returns the density per steradian with which [`Self::sample_emitter`] chooses a direction from `place` that hits
+    /// `triangle` at `distance`.
     pub(crate) fn density(
         &self,
         place: Vec3,
@@ -180,31 +180,31 @@ impl<'a> Lights<'a> {
         chosen.map(|(light, arrival, weight)| (light, arrival, weight / whole))
     }
 
-    /// The probability with which [`Self::choose_punctual`] chooses `light`.
+    /// Returns the probability with which [`Self::choose_punctual`] chooses `light`.
     pub(crate) fn punctual_probability(&self, light: usize, place: Vec3, normal: Vec3) -> f32 {
         let weights = || self.punctual(place).map(|arrival| weight(&arrival, normal));
         weights().nth(light).map_or(0.0, |weight| weight / weights().sum::<f32>().max(f32::MIN_POSITIVE))
     }
 
-    /// Unoccluded light of all punctual lights at a point.
+    /// Returns the unoccluded light of all punctual lights at a point.
     pub(crate) fn punctual(&self, place: Vec3) -> impl Iterator<Item = Arrival> {
         self.scene.lights.iter().map(move |light| light.arrival(place))
     }
 
-    /// There is an emissive triangle.
+    /// Returns true if there is an emissive triangle.
     pub(crate) fn has_emitters(&self) -> bool {
         !self.emitters.is_empty()
     }
 
-    /// There is a punctual light.
+    /// Returns true if there is a punctual light.
     pub(crate) fn has_punctual(&self) -> bool {
         !self.scene.lights.is_empty()
     }
 }
 
 impl Emitter {
-    /// Cosine between a unit vector away from the triangle and the normal of the emitting side; 0 on a side that does
-    /// not emit.
+    /// Returns the cosine between a unit vector away from the triangle and the normal of the emitting side, or 0 on a
+    /// side that does not emit.
     fn cosine(&self, away: Vec3) -> f32 {
         let cosine = self.normal.dot(away);
         if self.is_two_sided { cosine.abs() } else { cosine.max(0.0) }

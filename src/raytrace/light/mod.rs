@@ -1,4 +1,4 @@
-//! The lights of a scene as rays sample them.
+//! The lights of a scene and how rays sample them.
 
 pub(crate) mod beams;
 pub(crate) mod light_bounds;

@@ -1,9 +1,9 @@
-//! Connections of a surface with a surface that a ray from a point or spot light meets.
+//! Connects a surface with another surface that a ray from a point or spot light hits.
 //!
-//! A light beside a ceiling makes a small, very bright spot there. Paths from elsewhere meet the spot seldom: their
-//! estimates have a long tail, and the error that they state is too small as long as no path has met it. So every
-//! diffuse surface is also connected with the surface that a ray from a light meets, and the power heuristic weights
-//! both strategies.
+//! A light beside a ceiling makes a small, very bright spot there. Paths from elsewhere seldom hit the spot. Their
+//! estimates have a long tail, and their estimated error is too small as long as no path has hit it. So every diffuse
+//! surface is also connected with the surface that a ray from a light hits, and the power heuristic weights both
+//! strategies.
 //!
 //! Source: Veach 1997, chapter 10 (bidirectional path tracing; here the paths with two vertices from the light).
 
@@ -18,9 +18,9 @@ use crate::scene::edge_cross;
 use crate::trace::Hit;
 
 impl RayCaster<'_> {
-    /// Irradiance at `origin`, above a surface with this shading and this geometric normal, from a surface that a ray
-    /// of a punctual light meets. `path_density` is the density of the other strategy, which accounts for the rest of
-    /// the light.
+    /// Returns the irradiance at `origin`, above a surface with this shading and this geometric normal, from a surface
+    /// that a ray of a punctual light hits. `path_density` is the density of the other strategy, which accounts for the
+    /// rest of the light.
     pub(crate) fn connected_irradiance(
         &self,
         origin: Vec3,
@@ -36,7 +36,7 @@ impl RayCaster<'_> {
         let distance = offset.length();
         let direction = offset / distance.max(f32::MIN_POSITIVE);
         let is_front = edge_cross(corners).dot(direction) < 0.0;
-        // The light and the point must see the same side.
+        // The light and the point must be on the same side.
         if normal.dot(direction) <= 0.0 || geometric.dot(direction) <= 0.0 || is_front != lit.is_front {
             return Vec3::ZERO;
         }

@@ -1,7 +1,8 @@
 //! Light straight from the lights to a surface, by rays aimed at them, through panes as well (next-event estimation).
 //!
 //! Equation: L = f L_e V cos / p, where the direction is sampled with density p, f is the reflectance distribution and
-//! V what passes on the way; weighted by the power heuristic where a path may find the same light.
+//! V the share of light that passes on the way. The power heuristic weights the sample where a path may find the same
+//! light.
 
 use std::cell::Cell;
 use std::f32::consts::FRAC_1_PI;
@@ -18,9 +19,9 @@ use crate::trace::Hit;
 
 /// Light that passes between two points.
 pub(crate) struct Passing {
-    /// Per channel.
+    /// Share that passes, per channel.
     pub share: Vec3,
-    /// It passes a pane.
+    /// True if it passes a pane.
     pub has_pane: bool,
 }
 
@@ -42,8 +43,8 @@ impl RayCaster<'_> {
             + self.reflected_of_emitters(surface, origin, |direction| [0.0, surface.glossy_density(direction)], sampler)
     }
 
-    /// As [`Self::direct`], from one of the punctual lights, and weighted for the other strategies of a path that has
-    /// met `surface` by `ray` at `distance`.
+    /// Returns the same radiance as [`Self::direct`], but from only one of the punctual lights, and weighted for the
+    /// other strategies of a path that has hit `surface` by `ray` at `distance`.
     pub(crate) fn direct_beside_path(
         &self,
         surface: &Surface,
@@ -82,7 +83,7 @@ impl RayCaster<'_> {
         unoccluded * self.passing(origin, arrival.to_light, arrival.distance).share
     }
 
-    /// Radiance towards the viewer of a punctual light, with its highlight, as if nothing were in between.
+    /// Radiance towards the viewer of a punctual light, with its highlight, without occlusion.
     pub(crate) fn unoccluded(&self, surface: &Surface, arrival: &Arrival) -> Vec3 {
         let cosine = surface.normal.dot(arrival.to_light);
         if cosine <= 0.0 || arrival.to_light.dot(surface.geometric) <= 0.0 {
@@ -144,7 +145,8 @@ impl RayCaster<'_> {
         sample.radiance * passing.share * (normal.dot(sample.direction) * share / sample.density)
     }
 
-    /// A point on an emissive triangle above the surface, and what passes from there.
+    /// Samples a point on an emissive triangle above the surface, and returns it with the share of light that passes
+    /// from there.
     fn emitter_sample(
         &self,
         origin: Vec3,
@@ -179,8 +181,8 @@ impl RayCaster<'_> {
         irradiance
     }
 
-    /// Share of light that passes along `direction` up to `max_distance`, in lengths of `direction`, through panes as
-    /// well.
+    /// Returns the share of light that passes along `direction` up to `max_distance`, in multiples of the length of
+    /// `direction`. Light also passes through panes.
     pub(crate) fn passing(&self, origin: Vec3, direction: Vec3, max_distance: f32) -> Passing {
         if !self.has_panes {
             let share = self.tracer.transmittance(origin, direction, max_distance);

@@ -4,10 +4,10 @@
 //! one random direction a surface.
 //!
 //! The light of lamps is sampled twice at every diffuse or glossy surface: by a point on a lamp (next-event estimation)
-//! and by the direction in which the path goes on; the power heuristic weights the two. Punctual lights have no area
-//! that a path could meet. They are sampled directly, also through panes, and by connection with a surface that a ray
-//! from the light meets (`connection.rs`). Light of a punctual light by way of a mirror is left out: no strategy finds
-//! it.
+//! and by the direction in which the path continues. The power heuristic weights the two. Paths cannot hit punctual
+//! lights, which have no area. They are sampled directly, also through panes, and by connection with a surface that a
+//! ray from the light hits (`connection.rs`). Light of a punctual light by way of a mirror is left out, because no
+//! strategy finds it.
 //!
 //! Sources: Kajiya 1986, "The Rendering Equation"; Veach 1997, "Robust Monte Carlo Methods for Light Transport
 //! Simulation", chapter 9.
@@ -26,7 +26,7 @@ use crate::raytrace::surface::hit::{Surface, Way};
 use crate::scene::Camera;
 use crate::trace::{Hit, Tracer};
 
-/// Reflections after which a path may end by Russian roulette.
+/// Number of reflections after which Russian roulette may end a path.
 const MIN_BOUNCES: u32 = 4;
 
 /// Renders a picture by path tracing, unbiased. Returns a film without samples if it was cancelled.
@@ -53,9 +53,9 @@ pub(crate) struct PathTracer<'a> {
 /// Radiance that arrives along a ray.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Arriving {
-    /// Emitted by the surface that the ray meets.
+    /// Emitted by the surface that the ray hits.
     pub emitted: Vec3,
-    /// Reflected there.
+    /// Reflected by that surface.
     pub reflected: Vec3,
 }
 
@@ -77,7 +77,7 @@ impl<'a> PathTracer<'a> {
         self.arriving_from(ray, hit, sampler)
     }
 
-    /// Radiance that arrives along a ray from what it has met.
+    /// Radiance that arrives along a ray from its hit.
     fn arriving_from(&self, mut ray: Ray, mut met: Option<Hit>, sampler: &mut Sampler) -> Arriving {
         let rays = &self.rays;
         let mut light = Arriving::default();
@@ -113,7 +113,7 @@ impl<'a> PathTracer<'a> {
         light
     }
 
-    /// The surface at a bounce is connected with surfaces that rays of punctual lights meet.
+    /// Returns true if the surface at a bounce is connected with surfaces that rays of punctual lights hit.
     pub(crate) fn connects_at(&self, bounce: u32) -> bool {
         !self.rays.beams.is_empty() && bounce < self.max_bounces
     }
@@ -128,7 +128,7 @@ impl<'a> PathTracer<'a> {
     }
 }
 
-/// Russian roulette: ends a path that carries little at random, and returns false if it ended.
+/// Russian roulette: randomly ends a path that carries little light, and returns false if it ended.
 ///
 /// A path that goes on carries the light of the ended ones as well: throughput / p, where p is the probability to go
 /// on, so that the mean stays the same.

@@ -1,4 +1,5 @@
-//! Rays through a scene with its lights: what a ray meets, and which share of a lamp's emission it accounts for.
+//! Rays through a scene with its lights: the nearest hit, and the multiple importance sampling weight of emission
+//! there.
 
 use glam::Vec3;
 
@@ -12,7 +13,8 @@ use crate::raytrace::surface::hit::Surface;
 use crate::scene::{AlphaMode, Scene};
 use crate::trace::{Hit, Tracer};
 
-/// Height of a ray's origin above its surface, as a share of the scene's extent: above rounding, below detail.
+/// Height of a ray's origin above its surface, as a share of the scene's extent: larger than rounding errors, smaller
+/// than detail.
 const HEIGHT: f32 = 1e-5;
 
 /// Casts rays through a scene.
@@ -20,11 +22,11 @@ pub(crate) struct RayCaster<'a> {
     pub tracer: &'a Tracer<'a>,
     pub lights: Lights<'a>,
     pub beams: Beams,
-    /// Metals and panes send light on.
+    /// True if metals and panes reflect or transmit light.
     pub has_specular: bool,
-    /// There are panes that send light on.
+    /// True if there are panes that transmit light.
     pub has_panes: bool,
-    /// Metres.
+    /// Height of a ray's origin above its surface, metres.
     height: f32,
     has_blending: bool,
 }
@@ -47,18 +49,19 @@ impl<'a> RayCaster<'a> {
         self.tracer.scene()
     }
 
-    /// A point moved off its surface, so that a ray from there does not meet the surface itself.
+    /// Returns a point moved off its surface, so that a ray from there does not hit the surface itself.
     pub(crate) fn above(&self, point: Vec3, normal: Vec3) -> Vec3 {
         point + normal * self.height
     }
 
-    /// The ray that leaves a surface in a direction to either side.
+    /// Returns the ray that leaves a surface in a direction to either side.
     pub(crate) fn onward(&self, surface: &Surface, direction: Vec3, source: RaySource) -> Ray {
         let side = surface.geometric * direction.dot(surface.geometric).signum();
         Ray { origin: self.above(surface.position, side), direction, source }
     }
 
-    /// The first surface that a ray meets. A surface that blends is met with a probability equal to its opacity.
+    /// Returns the nearest hit of a ray. The probability that a blended surface is hit equals its opacity. Camera rays
+    /// pass through the backs of single-sided surfaces.
     pub(crate) fn meet(&self, ray: &Ray, sampler: &mut Sampler) -> Option<Hit> {
         let mut hit = self.nearest(ray.origin, ray.direction, sampler)?;
         while matches!(ray.source, RaySource::Camera) && !hit.is_front && !self.has_two_sides(hit.triangle) {
@@ -79,12 +82,13 @@ impl<'a> RayCaster<'a> {
             return self.tracer.nearest(origin, direction, f32::INFINITY);
         }
         let bits = sampler.bits();
-        // The threshold is never 0, else a ray could meet a hole, whose opacity is 0.
+        // The threshold is never 0, because a ray could then hit a hole, whose opacity is 0.
         let solid_from = |triangle: TriangleId| 1.0 - unit_float(hash(bits ^ hash(triangle.0)));
         self.tracer.nearest_solid(origin, direction, f32::INFINITY, solid_from)
     }
 
-    /// Share of the emission at `hit` that the ray accounts for; samples of the lamps account for the rest.
+    /// Returns the multiple importance sampling weight of the emission at `hit`. Samples of the lamps have the
+    /// remaining weight.
     pub(crate) fn emission_share(&self, ray: &Ray, hit: &Hit) -> f32 {
         match ray.source {
             RaySource::Camera | RaySource::Unshared => 1.0,
@@ -99,8 +103,8 @@ impl<'a> RayCaster<'a> {
 
 /// The power heuristic: the weight of a sample with density `ours` where another strategy has density `theirs`.
 ///
-/// Equation: w = p_ours^2 / (p_ours^2 + p_theirs^2). Weights of both strategies sum to one for every direction, so that
-/// their sum stays unbiased, and the strategy with the higher density, whose estimate is the less noisy one, dominates.
+/// Equation: w = p_ours^2 / (p_ours^2 + p_theirs^2). For every direction, the weights of both strategies sum to one, so
+/// their sum is unbiased. The strategy with the higher density dominates, because its estimate has less noise.
 ///
 /// Source: Veach 1997, section 9.2.
 pub(crate) fn power_heuristic(ours: f32, theirs: f32) -> f32 {

@@ -1,4 +1,4 @@
-//! Rays followed through mirrors, glossy metal and panes, to every surface that these show.
+//! Follows rays through mirrors, glossy metal and panes, to every surface visible in them.
 
 use glam::Vec3;
 
@@ -7,23 +7,23 @@ use crate::raytrace::ray::{Ray, RaySource};
 use crate::raytrace::sampler::Sampler;
 use crate::raytrace::surface::hit::Surface;
 
-/// Mirrors and panes in a row that are followed.
+/// Largest number of mirrors and panes in a row that are followed.
 const MAX_MIRRORS: u32 = 12;
 
-/// How a ray came to a surface.
+/// How a ray reached a surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chain {
     /// Factor of the radiance from the surface.
     pub throughput: Vec3,
-    /// Mirrors and panes on the way.
+    /// Number of mirrors and panes on the way.
     pub num_mirrors: u32,
-    /// At least one of them reflected the ray.
+    /// True if at least one of them reflected the ray.
     pub is_reflected: bool,
-    /// Share of the surface's emission that this ray accounts for, and not samples of the lamps.
+    /// Multiple importance sampling weight of the surface's emission for this ray.
     pub emission_share: f32,
 }
 
-/// Visits the first surface that a ray meets and those behind mirrors and panes, and returns how many there are.
+/// Visits the nearest surface along a ray and those behind mirrors and panes, and returns how many there are.
 ///
 /// `prepare` may change a surface before it is visited and followed.
 pub(crate) fn follow(

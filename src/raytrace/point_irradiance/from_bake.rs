@@ -21,16 +21,16 @@ use crate::trace::Tracer;
 /// Precision of a final gather at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GatherPrecision {
-    /// Fewest rays a point.
+    /// Smallest number of rays a point.
     pub min_rays: u32,
-    /// Most rays a point.
+    /// Largest number of rays a point.
     pub max_rays: u32,
     /// Standard error of a point's irradiance below which no more rays are cast, relative to the irradiance, direct
     /// part included.
     pub error: f32,
 }
 
-/// Independent sets of rays at a point, from whose scatter the standard error follows.
+/// Number of independent sets of rays at a point. Their scatter gives the standard error.
 const NUM_STREAMS: u32 = 16;
 
 /// Computes the indirect irradiance at points by a final gather. Returns `None` if it was cancelled.
@@ -95,10 +95,10 @@ fn refined(seen: impl Fn(u32, u32) -> Vec3, direct: Vec3, precision: &GatherPrec
     }
 }
 
-/// Bounces after which the stored light is taken, however short the last ray.
+/// Number of bounces after which the stored light is used, however short the last ray is.
 const MAX_BOUNCES: u32 = 8;
 
-/// Length of a ray, in edges of the element that it meets, from which on the stored light of the element is taken.
+/// The stored light of an element is used if the ray that hits it is at least this long, in edges of the element.
 const TRUSTED_FROM: f32 = 4.0;
 
 /// Indirect radiance from one random direction of the hemisphere, times pi.

@@ -19,13 +19,13 @@ use crate::raytrace::sampler::Sampler;
 use crate::raytrace::settings::PathSettings;
 use crate::trace::Tracer;
 
-/// Independent estimates at a point, from whose scatter the standard error follows.
+/// Number of independent estimates at a point. Their scatter gives the standard error.
 const NUM_BATCHES: u32 = 32;
 
 /// Irradiance at a point, lux per channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Irradiance {
-    /// All of it.
+    /// Direct and indirect irradiance.
     pub total: Vec3,
     /// The part that comes straight from lights.
     pub direct: Vec3,

@@ -1,4 +1,4 @@
-//! Points at which irradiance is measured, and the surface that each lies on.
+//! Points at which irradiance is measured, and the surfaces they lie on.
 
 use glam::Vec3;
 
@@ -6,15 +6,15 @@ use crate::raytrace::path::ray_caster::RayCaster;
 use crate::scene::normal_of;
 use crate::trace::Hit;
 
-/// Distance within which the surface of a point is found, as a share of the scene's extent.
+/// Largest distance between a point and its surface, as a share of the scene's extent.
 const REACH: f32 = 1e-4;
 
 /// A point at which irradiance is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasuringPoint {
-    /// On a surface, or anywhere in the open; metres.
+    /// Position on a surface or in open space, metres.
     pub position: Vec3,
-    /// Normal of the measuring plane; any length.
+    /// Normal of the measuring plane, of any length.
     pub normal: Vec3,
 }
 

@@ -1,4 +1,4 @@
-//! A surface that a ray has met, and how it scatters light.
+//! The surface at a ray's hit, and how it scatters light.
 
 use std::f32::consts::FRAC_1_PI;
 
@@ -15,13 +15,13 @@ use crate::raytrace::surface::specular::{Specular, SpecularWay};
 use crate::scene::{Scene, edge_cross};
 use crate::trace::Hit;
 
-/// A point of a surface that a ray has met, seen from the side of the ray.
+/// A point of a surface that a ray has hit, seen from the side of the ray.
 #[derive(Clone, Debug)]
 pub(crate) struct Surface {
     pub triangle: TriangleId,
     /// Weights of the triangle's corners.
     pub barycentric: Vec3,
-    /// The ray comes from the front.
+    /// True if the ray comes from the front.
     pub is_front: bool,
     pub position: Vec3,
     /// Geometric unit normal on the ray's side.
@@ -29,11 +29,11 @@ pub(crate) struct Surface {
     /// Unit normal of the cosine of diffuse reflection: the interpolated one if the camera sees the surface, directly
     /// or in a mirror; the geometric one after a diffuse reflection, as in radiosity.
     pub normal: Vec3,
-    /// Unit vector back along the ray.
+    /// Unit vector towards the origin of the ray.
     pub to_viewer: Vec3,
     /// Diffuse reflectance; 0 on the back of a single-sided surface.
     pub reflectance: Vec3,
-    /// Diffuse reflectance in radiosity, which treats glass as paint, of the share that is clear glass.
+    /// Diffuse reflectance that radiosity uses for the share that is clear glass, which it treats as paint.
     pub unclear_reflectance: Vec3,
     /// Emitted radiance; 0 on the back of a single-sided surface.
     pub emission: Vec3,
@@ -54,16 +54,16 @@ pub(crate) struct Scattered {
 pub(crate) enum Way {
     /// Diffuse reflection; density of the direction per steradian. Lamps are sampled as well.
     Diffuse { density: f32 },
-    /// Reflection in a mirror, in glossy metal or at a pane; density of the direction per steradian, 0 if it is the
-    /// only one.
+    /// Reflection in a mirror, in glossy metal or at a pane. The density of the direction is per steradian, or 0 if
+    /// only one direction is possible.
     Reflected { density: f32 },
     /// Straight through a pane.
     Passed,
 }
 
 impl Surface {
-    /// The surface that `ray` has met at `hit`. Without `has_specular` it is that of radiosity: metals absorb and glass
-    /// is opaque.
+    /// Returns the surface that `ray` has hit at `hit`. Without `has_specular`, metals absorb and glass is opaque, as
+    /// in radiosity.
     pub(crate) fn at(scene: &Scene, ray: &Ray, hit: &Hit, has_specular: bool) -> Self {
         let corners = scene.corners(hit.triangle);
         let weights = hit.barycentric;
@@ -123,7 +123,7 @@ impl Surface {
         self.diffuse_share() * self.normal.dot(direction).max(0.0) * FRAC_1_PI
     }
 
-    /// Density per steradian with which its metal reflects into a direction; 0 for a perfect mirror.
+    /// Density per steradian with which the metal of the surface reflects into a direction; 0 for a perfect mirror.
     pub(crate) fn glossy_density(&self, direction: Vec3) -> f32 {
         self.specular.as_ref().map_or(0.0, |specular| specular.density(self.to_viewer, direction))
     }

@@ -1,4 +1,4 @@
-//! Normal maps: textures that store small relief.
+//! Normal maps: textures that store small bumps as normals.
 //!
 //! Tangents are computed from the texture coordinates of each triangle; tangents stored in a file are not read.
 
@@ -19,7 +19,7 @@ pub(crate) fn mapped_normal(scene: &Scene, triangle: TriangleId, weights: Vec3, 
     let (ab, ac) = (b - a, c - a);
     let area = ab.perp_dot(ac);
     let [p, q, r] = corners.map(|vertex| vertex.position);
-    // Directions in which the texture coordinates grow: u to the right and v down, as images of glTF.
+    // Directions in which the texture coordinates increase: u to the right and v down, as in images of glTF.
     let right = ((q - p) * ac.y - (r - p) * ab.y) / area;
     let down = ((r - p) * ab.x - (q - p) * ac.x) / area;
     let tangent = right.reject_from_normalized(smooth).try_normalize()?;

@@ -40,7 +40,7 @@ pub(crate) struct SpecularWay {
     pub direction: Vec3,
     /// Factor of the radiance from that direction.
     pub share: Vec3,
-    /// Light comes straight through a pane.
+    /// True if light comes straight through a pane.
     pub is_straight: bool,
 }
 
@@ -66,7 +66,7 @@ impl Specular {
         Some(Self { normal, lobe })
     }
 
-    /// Light leaves in one direction only, or in two of a pane.
+    /// Returns true if light leaves in one direction only, or in two at a pane.
     pub(crate) fn is_perfect(&self) -> bool {
         !matches!(self.lobe, Lobe::Metal { alpha, .. } if alpha >= MIRROR_ALPHA)
     }

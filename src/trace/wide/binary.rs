@@ -1,4 +1,4 @@
-//! The binary tree that is collapsed into a wide one: the better of two.
+//! The binary tree that is collapsed into a wide one: built by two methods, of which the cheaper result is used.
 //!
 //! The surface area heuristic (SAH) estimates the cost of a tree: a ray that meets a box meets a box within it with a
 //! probability equal to the ratio of their surface areas, so cost = sum over the nodes of area x cost of the node.
@@ -35,7 +35,7 @@ pub(super) fn binary_tree(triangles: &[[Vec3A; 3]]) -> Bvh2 {
     if cost(&above) < cost(&below) { above } else { below }
 }
 
-/// Expected number of nodes and leaves that a ray meets, up to a factor (the surface area heuristic).
+/// Returns the expected number of nodes and leaves that a ray intersects, up to a factor (the surface area heuristic).
 fn cost(tree: &Bvh2) -> f32 {
     tree.nodes.iter().map(|node| node.aabb().half_area()).sum()
 }
@@ -61,7 +61,8 @@ fn from_above(triangles: &[[Vec3A; 3]]) -> Bvh2 {
     tree
 }
 
-/// Makes node `at` the root over the boxes with these numbers, which begin at `first` in the whole list.
+/// Makes node `at` the root over the boxes with the given numbers. `first` is the place of the first of these in the
+/// whole list.
 fn grow(tree: &mut Bvh2, boxes: &[Aabb], numbers: &mut [u32], at: usize, first: usize) {
     let bounds = numbers.iter().fold(Aabb::empty(), |all, &n| all.union(&boxes[n as usize]));
     if numbers.len() == 1 {

@@ -31,18 +31,18 @@ pub(in crate::trace) struct Probe {
     origin: [Vec4; 3],
     direction: [Vec4; 3],
     inverse: [Vec4; 3],
-    /// The bound that is met first, by axis.
+    /// Index of the bound that the ray reaches first, by axis.
     near: [usize; 3],
-    /// Surfaces beyond this distance do not count.
+    /// Surfaces beyond this distance are ignored.
     pub reach: f32,
 }
 
-/// Where a ray meets the triangles of a leaf.
+/// Intersections of a ray with the triangles of a leaf.
 pub(in crate::trace) struct Meeting {
     pub distance: [f32; 4],
     pub u: [f32; 4],
     pub v: [f32; 4],
-    /// Lanes that are met within reach, lane 0 in the lowest bit.
+    /// Lanes whose triangles are hit within reach, lane 0 in the lowest bit.
     pub lanes: u32,
 }
 
@@ -61,7 +61,7 @@ impl Probe {
 }
 
 impl Node {
-    /// A node of up to four boxes. The other lanes are never met.
+    /// Returns a node of up to four boxes. Unused lanes are never hit.
     pub(super) fn around(lows: impl Iterator<Item = Vec3A>, highs: impl Iterator<Item = Vec3A>) -> Self {
         let lanes = |corners: &mut dyn Iterator<Item = Vec3A>, nowhere: f32| {
             let mut axes = [Vec4::splat(nowhere); 3];
@@ -76,7 +76,7 @@ impl Node {
         Self { bounds: std::array::from_fn(|axis| [low[axis], high[axis]]), children: [0; 4] }
     }
 
-    /// Distances to the four boxes, and the lanes of those that are met.
+    /// Returns the distances to the four boxes and the lanes of the boxes that are hit.
     #[inline]
     pub(super) fn meet(&self, probe: &Probe) -> ([f32; 4], u32) {
         let along = |axis: usize, bound: usize| (self.bounds[axis][bound] - probe.origin[axis]) * probe.inverse[axis];
@@ -108,8 +108,8 @@ impl Leaf {
         leaf
     }
 
-    /// Distances along the ray, barycentric coordinates of the second and third corner, and the lanes of triangles that
-    /// are met.
+    /// Returns distances along the ray, barycentric coordinates of the second and third corner, and the lanes of the
+    /// triangles that are hit.
     #[inline]
     pub(in crate::trace) fn meet(&self, probe: &Probe) -> Meeting {
         let p = cross(probe.direction, self.edge_2);

@@ -1,10 +1,9 @@
 //! A four-wide bounding volume hierarchy (BVH): a tree of boxes, each with up to four children, over all triangles.
 //!
-//! A ray visits only the children whose boxes it meets, the nearest first, and skips boxes beyond the nearest hit. Four
-//! boxes or four triangles are tested at once, one in each lane of a SIMD register; every x86-64 and ARM64 processor
-//! has four lanes, so no special build is needed. `binary` builds a binary tree, which is collapsed into the wide one
-//! here; `lanes` holds the intersection tests, `stack` what a ray still has to visit.
-//!
+//! A ray visits only the children whose boxes it hits, the nearest first, and skips boxes beyond the nearest hit. Four
+//! boxes or four triangles are tested at once, one in each lane of a SIMD register. Every x86-64 and ARM64 processor
+//! has four lanes, so no special build is needed. `binary` builds a binary tree, which is collapsed here into the wide
+//! one; `lanes` holds the intersection tests, `stack` the nodes that a ray still has to visit.
 //! Sources: Wald, Benthin, Boulos 2008, "Getting Rid of Packets" (wide trees for single rays); Möller, Trumbore 1997
 //! (triangles).
 
@@ -128,7 +127,7 @@ mod tests {
         (0..count).map(triangle).collect()
     }
 
-    /// Nearest distance through the tree.
+    /// Returns the nearest distance through the tree.
     fn nearest(tree: &WideTree, origin: Vec3, direction: Vec3) -> f32 {
         let mut probe = Probe::new(origin, direction, f32::INFINITY);
         tree.visit(&mut probe, |probe, leaf| {

@@ -1,6 +1,6 @@
-//! The nodes that a ray still has to visit; a few need no memory from the heap.
+//! The nodes that a ray still has to visit, without heap memory as long as they are few.
 
-/// Entries without memory from the heap.
+/// Number of entries that fit without heap memory.
 const SHALLOW: usize = 48;
 
 /// Nodes to visit, with the distances to their boxes.
