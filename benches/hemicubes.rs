@@ -14,7 +14,7 @@ use hemicube::scene::{Scene, builtin, gltf};
 
 /// Hemicubes per timed run.
 const COUNT: usize = 4096;
-/// Runs, of which the best counts.
+/// Number of runs, of which the fastest counts.
 const RUNS: usize = 3;
 
 fn main() -> anyhow::Result<()> {

@@ -21,7 +21,8 @@ use hemicube::scene::{Instance, Light, Material, Scene, Triangle, Vertex, gltf};
 const COUNT: usize = 256;
 const SIZE_PX: u32 = 64;
 
-/// Makes the bench bake a scene and print its memory, in a process of its own, because the peak is that of a process.
+/// Argument that makes the bench bake a scene and print its memory, in a separate process, because peak memory is
+/// measured per process.
 const BAKE: &str = "--bake-of";
 
 fn main() -> anyhow::Result<()> {

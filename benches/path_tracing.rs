@@ -1,4 +1,4 @@
-//! Irradiance by path tracing against a table of another path tracer.
+//! Compares irradiance by path tracing with a table of another path tracer.
 //!
 //! `cargo bench --bench path_tracing -- SCENE.glb REFERENCE.csv [SAMPLES] [MAX_BOUNCES]`; the columns of the table are
 //! px,py,pz, nx,ny,nz,E_r,E_g,E_b,Ed_r,Ed_g,Ed_b,se_r,se_g,se_b. Points agree within three standard errors of the
@@ -69,7 +69,7 @@ fn report(name: &str, rows: &[Row], found: &[Irradiance], samples: u32, seconds:
     for (row, found) in rows.iter().zip(found) {
         let off = found.total - row.irradiance;
         let error = (found.total_error * found.total_error + row.error * row.error).map(f32::sqrt);
-        // Without noise, the rounding of single floats remains.
+        // Without noise, the rounding errors of single precision remain.
         close += usize::from(off.abs().cmple(3.0 * error + 1e-4 * row.irradiance + 1e-6 * mean).all());
         difference += off / count;
         direct_difference += (found.direct - row.direct) / count;

@@ -19,7 +19,7 @@ use hemicube::scene::{Scene, area_of, builtin, gltf, normal_of};
 use hemicube::trace::Tracer;
 use rayon::prelude::*;
 
-/// Runs of which the median counts.
+/// Number of runs, of which the median counts.
 const RUNS: usize = 5;
 
 struct Ray {
@@ -101,7 +101,7 @@ impl Rate {
     }
 }
 
-/// Embree's rates for the nearest and for any hit.
+/// Measures Embree's rates for the nearest and for any hit.
 fn embree(python: &Path, scene: &Scene, rays: &[Ray]) -> anyhow::Result<Vec<Rate>> {
     let corners = (0..scene.triangles.len()).flat_map(|t| scene.corners(TriangleId::new(t)));
     let lines = rays.iter().flat_map(|ray| [ray.origin, ray.direction]);
@@ -127,7 +127,7 @@ fn embree(python: &Path, scene: &Scene, rays: &[Ray]) -> anyhow::Result<Vec<Rate
     text.lines().map(rate).collect()
 }
 
-/// Processor time of this program, the sum of all threads. `None` if the system does not report it.
+/// Returns the processor time of this program, summed over all threads, or `None` if the system does not report it.
 fn processor_seconds() -> Option<f64> {
     // Fields 14 and 15 of proc(5), in hundredths of a second; the second field, a name in brackets, may contain blanks.
     let text = std::fs::read_to_string("/proc/self/stat").ok()?;
@@ -136,7 +136,7 @@ fn processor_seconds() -> Option<f64> {
     Some((ticks(14)? + ticks(15)?) / 100.0)
 }
 
-/// Rays from points distributed over the surface by area, in random order.
+/// Returns rays from points distributed over the surface by area, in random order.
 fn rays(scene: &Scene, count: u32) -> Vec<Ray> {
     let mut whole = 0.0;
     let triangles = (0..scene.triangles.len()).map(TriangleId::new);

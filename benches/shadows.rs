@@ -27,7 +27,7 @@ use hemicube::render::{
 use hemicube::scene::{Camera, Light, Scene, builtin, gltf};
 
 const SIZE: [u32; 2] = [1280, 720];
-/// Frames that are measured; the best counts.
+/// Number of frames measured, of which the fastest counts.
 const FRAMES: usize = 8;
 
 fn main() -> anyhow::Result<()> {
@@ -51,7 +51,7 @@ fn bench(gpu: &Gpu, scene: Scene) {
     let light = VertexLight::dark(1, spot.vertices.len());
     let under_spot = Stage::new(gpu, BakedScene::new(spot, light));
     let mut stage = Stage::new(gpu, baked);
-    // First, before the processor slows down as it heats up.
+    // The shadow map is measured first, before the processor slows down as it heats up.
     let map = ShadowSettings::new(ShadowTechnique::Map);
     let stored = stage.milliseconds(gpu, None);
     let one_map = under_spot.milliseconds(gpu, Some(&map));

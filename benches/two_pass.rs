@@ -1,4 +1,4 @@
-//! Two-pass ray tracing against path tracing of the same picture: error, bias and time, in one run.
+//! Compares two-pass ray tracing with path tracing of the same picture: error, bias and time, in one run.
 //!
 //! `cargo bench --bench two_pass -- [SCENE.glb[=REFERENCE.exr] ...]`; by default the built-in scenes whose lamps paths
 //! can find. The time of two passes includes the bake. With a reference, the mean radiance of both pictures is compared
@@ -88,7 +88,7 @@ fn measure(scene: &Scene, reference: Option<&Raster>) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// A number from the environment.
+/// Returns a number from the environment, or the default.
 fn setting(name: &str, default: u32) -> anyhow::Result<u32> {
     std::env::var(name).map_or(Ok(default), |text| text.parse().context(name.to_owned()))
 }

@@ -1,4 +1,4 @@
-//! A form-factor method of one's own drives a solver of this crate.
+//! Uses a custom form-factor method with a solver of this crate.
 //!
 //! In an empty convex room nothing blocks the view, so Lambert's closed form gives every form factor exactly. The
 //! example solves such a room with it and with the cosine-distributed rays of the crate, and compares the two.

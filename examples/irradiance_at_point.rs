@@ -1,4 +1,4 @@
-//! Illuminance on a desk: a bake measured at a point, against path tracing and against the formula of a point light.
+//! Compares the illuminance on a desk, measured in a bake, with path tracing and with the formula of a point light.
 
 use std::error::Error;
 
@@ -10,7 +10,7 @@ use hemicube::scene::{Light, Material};
 use hemicube::trace::Tracer;
 use hemicube::{BakeSettings, MeasureSettings, Quality, SceneBuilder, bake, measure};
 
-/// Intensity of the lamp, candela in every direction.
+/// Luminous intensity of the lamp, candela, equal in all directions.
 const INTENSITY: f32 = 100.0;
 
 fn main() -> Result<(), Box<dyn Error>> {

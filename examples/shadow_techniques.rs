@@ -38,7 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         let picture = picture(&gpu, &baked, &camera, SIZE, &settings)?;
         let milliseconds = 1e3 * start.elapsed().as_secs_f32();
 
-        // The mean radiance falls by what is in shadow.
+        // The mean radiance is reduced by the shadows.
         let mean = picture.radiance.iter().map(|[r, g, b, _]| (r + g + b) / 3.0).sum::<f32>();
         let mean = mean / picture.radiance.len() as f32;
         let path = folder.join(format!("{}.png", info.name));

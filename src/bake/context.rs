@@ -1,4 +1,4 @@
-//! What a bake uses beside its settings: a device, kept rows, and an observer.
+//! Optional parts of a bake besides its settings: a device, stored rows, and an observer.
 
 use crate::baked::{BakedScene, VertexLight};
 use crate::base::progress::{Progress, Unwatched};
@@ -11,19 +11,19 @@ use crate::gpu::Gpu;
 /// whenever [`is_light_due`](Self::is_light_due) returns true, always for the last mesh. All calls are made on the thread
 /// that bakes. The bake ends early if [`Progress::is_cancelled`] returns true, and keeps what is solved.
 pub trait BakeObserver: Progress {
-    /// The mesh that light lies on from now on, with the light that is known.
+    /// Called with the mesh that the light belongs to from now on, and the light known so far.
     fn on_mesh(&self, _mesh: &BakedScene) {}
-    /// True if [`on_light`](Self::on_light) may be called with a new estimate of the light.
+    /// Returns true if [`on_light`](Self::on_light) may be called with a new estimate of the light.
     fn is_light_due(&self) -> bool {
         false
     }
-    /// The light so far, with the ambient estimate of the unshot power.
+    /// Called with the light so far, including the ambient estimate of the unshot power.
     fn on_light(&self, _estimate: &VertexLight) {}
 }
 
 impl BakeObserver for Unwatched {}
 
-/// What a bake uses beside its settings. The default is the CPU alone, without kept rows or an observer.
+/// Optional parts of a bake besides its settings. The default is the CPU alone, without stored rows or an observer.
 #[derive(Clone, Copy)]
 pub struct BakeContext<'a> {
     /// Device that draws hemicubes; `None` computes form factors by rays.
@@ -31,12 +31,12 @@ pub struct BakeContext<'a> {
     /// File of form-factor rows: rows in it are read, rows that are missing are added. A stopped bake continues from it, and
     /// a bake with other colours or lamps reuses most of it.
     pub row_cache: Option<&'a RowCache>,
-    /// Follows the bake and may cancel it.
+    /// Observes the bake and may cancel it.
     pub observer: &'a dyn BakeObserver,
 }
 
 impl<'a> BakeContext<'a> {
-    /// A context with a device that draws hemicubes.
+    /// Creates a context with a device that draws hemicubes.
     #[must_use]
     pub fn on(gpu: &'a Gpu) -> Self {
         Self { gpu: Some(gpu), ..Self::default() }

@@ -1,4 +1,4 @@
-//! Why a bake cannot be done.
+//! Reasons why a bake cannot be done.
 
 use thiserror::Error;
 
@@ -18,7 +18,7 @@ pub enum BakeError {
     /// Hemicubes were requested without a device that draws them.
     #[error("hemicubes need a device that draws them; the hemisphere method needs none")]
     NoDevice,
-    /// The full matrix is for small scenes.
+    /// The scene is too large for the full matrix.
     #[error(transparent)]
     Matrix(#[from] MatrixTooLarge),
     /// The scene has no light.

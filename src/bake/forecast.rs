@@ -5,22 +5,22 @@ use crate::form_factor::Entry;
 use crate::patch::{Element, MeshError, PatchMesh};
 use crate::scene::{Scene, Triangle, Vertex};
 
-/// Program, driver and their buffers, bytes.
+/// Memory of the program, the driver and their buffers, bytes.
 const PROGRAM: usize = 82 << 20;
 
-/// A software driver that draws hemicubes, its shader compiler and the atlases, bytes; and per triangle the memory of the
-/// driver and of the index lists.
+/// Memory of a software driver that draws hemicubes, its shader compiler and the atlases, bytes; and per triangle the
+/// memory of the driver and of the index lists.
 const DRAWING: usize = 140 << 20;
 const DRAWN_TRIANGLE: usize = 2200;
 
-/// Elements that subdivision typically adds, as a share of the most that it may add: under lights that cast soft shadows
-/// only, and under lights that cast hard ones.
+/// Elements that subdivision typically adds, as a share of the largest number that it may add. The first value is for
+/// scenes where all lights cast soft shadows, the second for lights that cast hard ones.
 const TYPICAL_GROWTH: [f64; 2] = [0.1, 0.8];
 
-/// Entries of a row, as a share of its rays: rays that meet the same element share an entry.
+/// Number of entries of a row, as a share of its rays. Rays that hit the same element share an entry.
 const SHARE_OF_ENTRIES: f64 = 0.5;
 
-/// Copies of the mesh and of the displayed scene that a bake holds at a time.
+/// Number of copies of the mesh and of the displayed scene that a bake holds at a time.
 const COPIES: usize = 5;
 
 /// Memory of the ray tree, bytes per triangle.
@@ -29,18 +29,18 @@ const RAY_TREE: usize = 110;
 /// Predicted counts and memory of a bake.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Forecast {
-    /// Elements before light subdivides them.
+    /// Number of elements before subdivision by light.
     pub elements: usize,
-    /// Patches.
+    /// Number of patches.
     pub patches: usize,
-    /// Light vertices before light subdivides the mesh.
+    /// Number of light vertices before subdivision by light.
     pub vertices: usize,
-    /// Most memory of the process, bytes.
+    /// Peak memory of the process, bytes.
     pub bytes: usize,
 }
 
 impl Forecast {
-    /// Meshes the scene and predicts the rest. If the settings name no method, the prediction is for rays.
+    /// Meshes the scene and predicts the rest. If the settings contain no method, the prediction is for rays.
     ///
     /// # Errors
     /// Returns an error if the scene cannot be meshed.
@@ -49,7 +49,7 @@ impl Forecast {
         Ok(Self::of_mesh(scene, &mesh, settings, settings.method.unwrap_or(Method::Hemisphere)))
     }
 
-    /// As [`Self::of`], for a meshed scene and a chosen method.
+    /// Predicts the same as [`Self::of`], for a meshed scene and a chosen method.
     #[must_use]
     pub fn of_mesh(scene: &Scene, mesh: &PatchMesh, settings: &BakeSettings, method: Method) -> Self {
         let added = if settings.refinement.max_error > 0.0 {

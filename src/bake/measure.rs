@@ -1,7 +1,7 @@
-//! Irradiance at points: what a lux meter shows there.
+//! Irradiance at points, as a lux meter would show it.
 //!
-//! Direct light is computed at the point itself; indirect light is gathered by rays over the stored solution, which is sharper
-//! than interpolation between the vertices around the point.
+//! Direct light is computed at the point itself. Indirect light is gathered by rays over the stored solution, which is
+//! sharper than interpolation between the vertices around the point.
 
 use glam::Vec3;
 
@@ -28,21 +28,21 @@ pub struct Measured {
 /// The precision of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeasureSettings {
-    /// Rays that gather indirect light.
+    /// Precision of the rays that gather indirect light.
     pub gather: GatherPrecision,
-    /// Most rays per point and emitter in penumbrae.
+    /// Largest number of rays per point and emitter in penumbrae.
     pub num_penumbra_rays: u32,
 }
 
 impl Default for MeasureSettings {
-    /// The medium preset.
+    /// Returns the medium preset.
     fn default() -> Self {
         Self::preset(Quality::default())
     }
 }
 
 impl MeasureSettings {
-    /// The values of a preset.
+    /// Returns the values of a preset.
     #[must_use]
     pub fn preset(quality: Quality) -> Self {
         let (num_penumbra_rays, max_rays, error) = match quality {
@@ -63,7 +63,7 @@ pub struct MeasureContext<'a> {
     pub mesh: &'a PatchMesh,
     /// The elements with their light.
     pub baked: &'a BakedScene,
-    /// Follows the measurement and may cancel it.
+    /// Observes the measurement and may cancel it.
     pub progress: &'a dyn Progress,
 }
 
@@ -123,7 +123,7 @@ pub fn measure_with(
     Some(indirect.into_iter().zip(direct).map(measured).collect())
 }
 
-/// Interpolates the light stored at the vertices around each point; `None` if the point lies on no surface.
+/// Interpolates the light stored at the vertices around each point. A value is `None` if the point lies on no surface.
 #[must_use]
 pub fn look_up(baked: &BakedScene, points: &[MeasuringPoint]) -> Vec<Option<Measured>> {
     let tracer = Tracer::new(&baked.scene);

@@ -14,9 +14,9 @@ use crate::patch::{MeshError, MeshSettings, PatchMesh};
 
 /// An unfolded hemicube.
 pub struct PatchView {
-    /// Pixels across and down: twice the width of the hemicube.
+    /// Width and height, pixels: twice the width of the hemicube.
     pub size: [u32; 2],
-    /// The element of the bake `[pixel]` in view, if any.
+    /// The element of the bake in view of each pixel `[pixel]`, if any.
     pub items: Vec<Option<u32>>,
     /// Linear radiance `[pixel]`; the fourth channel is 0 if no element is in view.
     pub radiance: Vec<[f32; 4]>,
@@ -54,13 +54,13 @@ pub fn patch_view(
     Ok(PatchView { size: [2 * n as u32; 2], items, radiance })
 }
 
-/// The pixel of the faces, in the layout of an atlas cell, that lies at (`u`, `v`) of the unfolded hemicube; `None` in the
-/// corners.
+/// Returns the pixel of the faces, in the layout of an atlas cell, that lies at (`u`, `v`) of the unfolded hemicube, or
+/// `None` in the corners.
 fn folded_pixel(u: usize, v: usize, n: usize) -> Option<usize> {
     let half = n / 2;
     let inner = half..half + n;
     let (column, row) = (u.wrapping_sub(half), v.wrapping_sub(half));
-    // Side `k` is rotated so that its upper edge meets the top face.
+    // Side `k` is rotated so that its upper edge touches the top face.
     let side = |k: usize, x: usize, y: usize| Some((n + (k - 1) * half + y) * n + x);
     match (inner.contains(&u), inner.contains(&v)) {
         (true, true) => Some(row * n + column),
@@ -72,7 +72,7 @@ fn folded_pixel(u: usize, v: usize, n: usize) -> Option<usize> {
     }
 }
 
-/// The radiance of an element, the mean over its corners.
+/// Returns the radiance of an element, the mean over its corners.
 ///
 /// Equation: L = (M + rho E) / pi.
 fn radiance_of(baked: &BakedScene, mesh: &PatchMesh, e: usize) -> [f32; 4] {

@@ -23,7 +23,7 @@ pub struct Bake {
     pub baked: BakedScene,
     /// Counts, balances and times.
     pub report: Report,
-    /// The mesh that the light lies on.
+    /// The mesh that the light belongs to.
     pub mesh: PatchMesh,
 }
 
@@ -54,7 +54,7 @@ pub fn bake(scene: &Scene, settings: &BakeSettings) -> Result<Bake, BakeError> {
 
 /// Bakes a scene with a device, kept rows of form factors, or an observer.
 ///
-/// After a cancel it returns what is solved so far, with averages of the elements in place of gathered light.
+/// After a cancel it returns the solution so far, with averages of the elements in place of gathered light.
 ///
 /// # Errors
 /// Returns an error if the scene has no triangles or no light or would need too many elements, if hemicubes are requested
@@ -75,8 +75,8 @@ pub fn bake_with(scene: &Scene, settings: &BakeSettings, context: &BakeContext<'
     observer.on_mesh(&BakedScene::of_mesh(scene, &mesh));
     clock.end_stage(Stage::Mesh);
 
-    // 2. Compute direct light: at the vertices for display, with more of them where it changes, and on the elements, whose
-    //    reflection the solver distributes.
+    // 2. Compute direct light at the vertices for display, with more vertices where it changes. Compute it also on the
+    // elements, whose reflection the solver distributes.
     let viewpoints = Viewpoints::new(scene);
     let tracer = Tracer::new(scene);
     let lights = DirectLight::new(scene, &mesh, &tracer, settings.sampling.num_penumbra_rays);
@@ -100,7 +100,7 @@ pub fn bake_with(scene: &Scene, settings: &BakeSettings, context: &BakeContext<'
     drop(solved.rows);
     clock.end_stage(Stage::Solve);
 
-    // 4. Gather the indirect light of the vertices, with more of them where it changes.
+    // 4. Gather the indirect light of the vertices, with more vertices where it changes.
     let gathered = lighting.gather(sources, &mut subdivision, &lit, &viewpoints, solved.radiosity)?;
     let (num_gathered, backface_share) = (gathered.num_hemicubes, gathered.backface_share);
     let hidden_vertices = gathered.num_hidden();

@@ -5,9 +5,9 @@
 //! therefore directions of equal weight 1/N (their density is cos theta / pi), and the form factor of an element is the
 //! share of the N rays that meet it.
 //!
-//! All viewpoints share one table of points. Each viewpoint rotates it about its normal and shifts the radii modulo 1, so
-//! the errors of neighbours are not correlated. The points are sorted along a space-filling curve, so consecutive rays
-//! visit the same triangles.
+//! All viewpoints share one table of points. Each viewpoint rotates it about its normal and shifts the radii modulo 1,
+//! so the errors of neighbours are not correlated. The points are sorted along a space-filling curve, so consecutive
+//! rays visit mostly the same triangles.
 //!
 //! Source: Nusselt 1928, "Graphische Bestimmung des Winkelverhältnisses bei der Wärmestrahlung"; Malley 1988 (rays);
 //! Cranley, Patterson 1976 (shifted points).
@@ -24,10 +24,10 @@ use crate::base::sampling::{hash, morton_2d, r2, tangent_frame, unit_float};
 use crate::patch::PatchMesh;
 use crate::trace::{Hit, Tracer};
 
-/// Rays between two calls of `may_continue`: a few milliseconds, so that a window can draw in between.
+/// Number of rays between two calls of `may_continue`. They take a few milliseconds, so a window can draw in between.
 const RAYS_A_BATCH: usize = 1 << 15;
 
-/// Fewest viewpoints of a batch: enough to keep all cores busy.
+/// Smallest number of viewpoints of a batch: enough to use all cores.
 const MIN_BATCH: usize = 16;
 
 /// Computes form factors of one scene by rays.
@@ -39,7 +39,7 @@ pub struct Hemispheres<'a> {
 }
 
 impl<'a> Hemispheres<'a> {
-    /// Hemispheres of `num_rays` rays over the scene of `tracer`, whose elements are `mesh`.
+    /// Creates hemispheres of `num_rays` rays over the scene of `tracer`, whose elements are `mesh`.
     #[must_use]
     pub fn new(tracer: &'a Tracer<'a>, mesh: &'a PatchMesh, num_rays: u32) -> Self {
         let mut squares: Vec<Vec2> = (0..num_rays.max(1)).map(|i| r2(i, 0)).collect();
@@ -48,10 +48,10 @@ impl<'a> Hemispheres<'a> {
         Self { tracer, mesh, circle: squares.into_iter().map(polar).collect() }
     }
 
-    /// Standard error of the estimate `factor` if the rays were independent; evenly spread rays do better.
+    /// Standard error of the estimate `factor` for independent rays. The error of evenly spread rays is smaller.
     #[must_use]
     pub fn standard_error(factor: f64, num_rays: f64) -> f64 {
-        // One hit and one miss are added, because an object that no ray met may still be there (Agresti, Coull 1998).
+        // One hit and one miss are added, because an object that no ray hit may still be there (Agresti, Coull 1998).
         let share = (factor * num_rays + 1.0) / (num_rays + 2.0);
         (share * (1.0 - share) / num_rays).sqrt()
     }
@@ -70,7 +70,7 @@ impl<'a> Hemispheres<'a> {
             let base = (x * angle.x + y * angle.y) * squared.sqrt();
             let direction = base + viewpoint.normal * (1.0 - squared).sqrt();
             let seed = viewpoint.seed ^ hash(i as u32);
-            // A transparent surface stops a ray with the probability of its opacity.
+            // The probability that a transparent surface stops a ray equals its opacity.
             let solid_from = |triangle: TriangleId| 1.0 - unit_float(hash(seed ^ hash(triangle.0)));
             match self.tracer.nearest_solid(viewpoint.position, direction, f32::INFINITY, solid_from) {
                 None => num_sky += 1,
@@ -94,7 +94,7 @@ impl<'a> Hemispheres<'a> {
     }
 }
 
-/// Appends an entry, or adds its factor to the last entry if consecutive rays met the same element.
+/// Appends an entry, or adds its factor to the last entry if consecutive rays hit the same element.
 fn add(entries: &mut Vec<Entry>, entry: Entry) {
     match entries.last_mut() {
         Some(last) if last.element == entry.element => last.factor += entry.factor,

@@ -1,4 +1,4 @@
-//! A row of form factors: what one viewpoint sees, element by element.
+//! A row of form factors from one viewpoint, element by element.
 
 use glam::Vec3;
 
@@ -7,7 +7,7 @@ use crate::base::ids::ElementId;
 /// A point on a surface from which form factors are sampled: the differential area dA of the equations.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Viewpoint {
-    /// Metres; slightly above its surface.
+    /// Position slightly above the surface, metres.
     pub position: Vec3,
     /// Unit normal of the surface.
     pub normal: Vec3,
@@ -25,7 +25,7 @@ pub struct Row {
     pub entries: Vec<Entry>,
     /// Black backs of single-sided surfaces in view, each under the element on its front.
     pub backs: Vec<Entry>,
-    /// Share of the view that meets no surface.
+    /// Share of the view without a surface.
     pub sky: f32,
 }
 
@@ -36,7 +36,7 @@ impl Row {
         self.backs.iter().map(|entry| entry.factor).sum()
     }
 
-    /// Empties the row and keeps its memory.
+    /// Empties the row but keeps its allocated memory.
     pub fn clear(&mut self) {
         self.entries.clear();
         self.backs.clear();
@@ -49,6 +49,6 @@ impl Row {
 pub struct Entry {
     /// The element in view.
     pub element: ElementId,
-    /// F, 0..1.
+    /// Form factor, 0..1.
     pub factor: f32,
 }

@@ -1,4 +1,4 @@
-//! The seam between geometry and light: a source computes rows of form factors, a solver consumes them.
+//! The interface between geometry and light: a source computes rows of form factors, a solver uses them.
 
 use std::error::Error;
 use std::sync::OnceLock;
@@ -69,7 +69,7 @@ pub trait FormFactorSource {
         visit: &(dyn Fn(usize, &Row) + Sync),
     ) -> Result<usize, FormFactorError>;
 
-    /// Rays or pixels of one row: the number of samples that its noise follows from.
+    /// Number of rays or pixels of one row, from which its noise follows.
     fn num_samples(&self) -> usize;
 }
 

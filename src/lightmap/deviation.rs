@@ -7,7 +7,7 @@ use crate::baked::Texels;
 use crate::base::colour::luminance;
 use crate::base::sampling::{r2, triangle_from_square};
 
-/// Sample points of an element.
+/// Number of sample points of an element.
 const POINTS: u32 = 4;
 
 /// Mean deviation in luminance over all surfaces, as a share of the mean luminance: sum A |shown - stored| / sum A

@@ -1,4 +1,4 @@
-//! Unwrapping: the surfaces of a scene side by side in a texture.
+//! Unwrapping: places the surfaces of a scene side by side in a texture.
 //!
 //! The crate `uvunwrap` grows charts of triangles within a cone of normals, flattens each by a least squares conformal
 //! map (Lévy et al. 2002) and packs the charts with space between them.
@@ -12,7 +12,7 @@ use super::settings::{LightmapError, LightmapSettings};
 use crate::base::ids::{InstanceId, TriangleId};
 use crate::scene::{Instance, Scene, Sides, Triangle, Vertex};
 
-/// Empty texels round each chart: bilinear filtering needs one, the first smaller mip level two.
+/// Empty texels round each chart. Bilinear filtering needs one, and the first smaller mip level two.
 const PADDING: u32 = 2;
 
 /// An unwrapped scene.
@@ -21,9 +21,9 @@ pub(super) struct Layout {
     pub scene: Scene,
     /// Texture coordinates of the vertices `[v]`, 0 to 1.
     pub coordinates: Vec<Vec2>,
-    /// Triangle of the loaded scene of which each triangle is a side `[t]`.
+    /// For each triangle `[t]`, the triangle of the loaded scene of which it is a side.
     pub sources: Vec<TriangleId>,
-    /// Texels across and down.
+    /// Width and height, texels.
     pub size: [u32; 2],
     /// Width of a texel, metres.
     pub texel_size: f32,
@@ -81,14 +81,14 @@ fn packed(inputs: &[MeshInput<'_>], area: f64, settings: &LightmapSettings) -> R
 struct Sheet {
     instance: usize,
     is_back: bool,
-    /// Its triangles in the scene.
+    /// Triangles of this side in the scene.
     triangles: Vec<TriangleId>,
-    /// Scene vertex of each of its vertices.
+    /// Scene vertex of each vertex.
     vertices: Vec<u32>,
     positions: Vec<[f32; 3]>,
-    /// Counter-clockwise as seen from this side.
+    /// Corners of the triangles, counter-clockwise as seen from this side.
     indices: Vec<u32>,
-    /// Square metres.
+    /// Area, square metres.
     area: f64,
 }
 

@@ -22,8 +22,7 @@ pub use settings::{LightmapError, LightmapSettings};
 /// Draws the light of a bake of `scene`, on the elements of `mesh`, into a texture.
 ///
 /// A texel holds the mean of the light on its part of the surface, so hard edges of shadows have no steps. A texel that
-/// no surface covers takes the light of the nearest one that is covered, so that bilinear filtering mixes in no other
-/// light.
+/// no surface covers takes the light of the nearest covered one, so that bilinear filtering mixes in no other light.
 ///
 /// # Errors
 /// Returns an error if the scene cannot be unwrapped, or falls into more pieces than the texture has room for.

@@ -9,7 +9,7 @@ use crate::patch::{Element, PatchMesh};
 
 /// An element in the texture.
 pub(super) struct Piece {
-    /// In texels.
+    /// Corners in the texture, texels.
     pub corners: [DVec2; 3],
     /// Irradiance at the corners, lux per channel.
     pub light: [Vec3; 3],

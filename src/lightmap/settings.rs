@@ -5,9 +5,9 @@ use thiserror::Error;
 /// Resolution of a lightmap.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightmapSettings {
-    /// Width of a texel on the surfaces, metres. It is larger if the texture would exceed `max_side` otherwise.
+    /// Width of a texel on the surfaces, metres. It is increased if the texture would otherwise exceed `max_side`.
     pub texel_size: f32,
-    /// Most texels across and down.
+    /// Largest width and height, texels.
     pub max_side: u32,
 }
 
@@ -34,9 +34,9 @@ pub enum LightmapError {
     /// The texture has no room for all pieces, even with large texels.
     #[error("a lightmap of {side} x {side} texels has no room for the {charts} pieces that the scene falls into")]
     TooManyCharts {
-        /// Connected pieces of the unwrapped scene.
+        /// Number of connected pieces of the unwrapped scene.
         charts: u32,
-        /// Most texels across and down.
+        /// Largest width and height, texels.
         side: u32,
     },
 }

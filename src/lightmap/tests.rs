@@ -1,4 +1,4 @@
-//! Lightmaps of light that is known everywhere.
+//! Tests of lightmaps with light that is known everywhere.
 
 use glam::{Quat, Vec2, Vec3};
 
@@ -23,7 +23,7 @@ fn room() -> (Scene, PatchMesh) {
     (scene, mesh)
 }
 
-/// Light that is a function of the vertex.
+/// Returns light that is a function of the vertex.
 fn light(mesh: &PatchMesh, of: impl Fn(usize) -> Vec3) -> VertexLight {
     let direct = (0..mesh.vertices.len()).map(|v| of(v) * 0.25).collect();
     let indirect = (0..mesh.vertices.len()).map(|v| of(v) * 0.75).collect();
@@ -44,7 +44,8 @@ fn between<T: std::ops::Mul<f32, Output = T> + std::ops::Add<Output = T> + Copy>
     interpolate(of, weights)
 }
 
-/// Each place of a lightmap: its triangle, where it is in the world, and the light that the texture shows there.
+/// Returns for each place of a lightmap its triangle, its position in the world, and the light that the texture shows
+/// there.
 fn shown(map: &Lightmap) -> impl Iterator<Item = (usize, Vec3, Vec3)> {
     (0..map.scene.triangles.len()).flat_map(move |t| {
         let positions = map.scene.corners(TriangleId::new(t));
@@ -73,7 +74,7 @@ fn light_that_is_linear_in_space_is_reproduced_within_one_texel() {
 
 #[test]
 fn no_light_bleeds_between_surfaces() {
-    // Every side of every wall has light of its own.
+    // Every side of every wall has different light.
     let (scene, mesh) = room();
     let mut side_of = vec![(0, false); mesh.vertices.len()];
     for element in &mesh.elements {
@@ -103,7 +104,7 @@ fn pieces_neither_overlap_nor_leave_the_texture() {
     let size = Vec2::new(layout.size[0] as f32, layout.size[1] as f32);
     let within = |at: Vec2| at.cmpge(Vec2::splat(1.9)).all() && at.cmple(size - 1.9).all();
     assert!(all.iter().all(|piece| piece.corners.iter().all(|corner| within(corner.as_vec2()))));
-    // What the pieces cover together is the sum of what each covers, and as much as their surfaces have.
+    // The summed area of the pieces equals that of their surfaces.
     let flat: f64 = all.iter().map(|p| 0.5 * (p.corners[1] - p.corners[0]).perp_dot(p.corners[2] - p.corners[0])).sum();
     let surface: f64 = all.iter().map(|piece| piece.area).sum();
     let texels_a_metre = f64::from(layout.texel_size).recip();

@@ -7,7 +7,7 @@ use glam::{DVec2, Vec3, Vec4, Vec4Swizzles as _};
 use super::pieces::Piece;
 use crate::baked::Texels;
 
-/// Sample points across and down a texel.
+/// Number of sample points across and down a texel.
 const POINTS: i64 = 4;
 
 /// Draws all pieces.
@@ -87,8 +87,8 @@ impl Canvas {
         (y * self.width + x) as usize
     }
 
-    /// Gives texels that nothing covers the light of the nearest ones, ring by ring, so that neither filtering nor mip
-    /// maps darken surfaces.
+    /// Fills texels that nothing covers with the light of the nearest ones, ring by ring, so that neither filtering nor
+    /// mip maps darken surfaces.
     fn spread(&mut self) {
         let is_lit = |sums: &[Vec4], texel: usize| sums[texel].w > 0.0;
         let mut edge: VecDeque<usize> = (0..self.sums.len()).filter(|&texel| is_lit(&self.sums, texel)).collect();

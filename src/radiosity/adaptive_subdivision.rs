@@ -21,14 +21,15 @@ use crate::scene::Scene;
 /// How far elements are subdivided.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SubdivisionSettings {
-    /// Deviation of the middle from the mean of the ends at which an edge is halved, relative to the light there.
+    /// Deviation of the light at an edge's midpoint from the mean of its ends at which the edge is halved, relative to
+    /// the light there.
     pub max_error: f32,
-    /// Edges shorter than this are halved only at larger deviations, in inverse proportion to their length, metres: the edge
-    /// of a hard shadow is worth small elements, that of a soft one is not.
+    /// Edges shorter than this, in metres, are halved only at larger deviations, in inverse proportion to their length.
+    /// Small elements pay off at the edge of a hard shadow, but not at that of a soft one.
     pub short_edge: f32,
-    /// Edges shorter than twice this are never halved, metres.
+    /// Edges shorter than twice this length, in metres, are never halved.
     pub min_edge: f32,
-    /// About the most elements of the mesh.
+    /// Approximate limit of the number of elements.
     pub max_elements: usize,
 }
 
@@ -36,7 +37,7 @@ pub struct SubdivisionSettings {
 pub struct SampledLight {
     /// Irradiance `[viewpoint][column]`, lux per channel; the caller decides what the columns are.
     pub light: Field,
-    /// False inside a solid, where the light has no meaning.
+    /// False if the viewpoint lies inside a solid, where the light has no meaning.
     pub is_open: Vec<bool>,
 }
 
@@ -106,7 +107,7 @@ impl<'a> AdaptiveSubdivision<'a> {
         }
     }
 
-    /// The light of all light vertices, sampled where it is not known yet.
+    /// Returns the light of all light vertices. Light that is not known yet is sampled.
     fn light_of<E>(
         &self,
         mesh: &PatchMesh,
@@ -123,7 +124,7 @@ impl<'a> AdaptiveSubdivision<'a> {
     }
 }
 
-/// Elements that halving an edge adds, including those of the halvings that follow from it.
+/// Number of elements that halving an edge adds, including those of the further halvings it causes.
 const ELEMENTS_A_SPLIT: usize = 4;
 
 /// An edge between light vertices `[l]`, and the elements beside it on one side of a surface.
@@ -133,7 +134,7 @@ struct Edge {
 }
 
 impl Edge {
-    /// The light vertex that halving the edge makes.
+    /// Returns the light vertex that halving the edge creates.
     fn middle(&self, mesh: &PatchMesh) -> LightVertex {
         let [a, b] = self.ends.map(|l| mesh.light_vertices[l]);
         LightVertex::between(a, b)
@@ -151,7 +152,8 @@ impl Edge {
         (short_edge / a.distance(b)).max(1.0)
     }
 
-    /// Relative deviation of the middle from the mean of the ends; `None` if one of the three lies inside a solid.
+    /// Returns the relative deviation of the midpoint from the mean of the ends, or `None` if one of the three lies
+    /// inside a solid.
     fn deviation(&self, ends: &SampledLight, middles: &SampledLight, at: usize, floor: f32) -> Option<f32> {
         let [a, b] = self.ends;
         if !(ends.is_open[a] && ends.is_open[b] && middles.is_open[at]) {
@@ -162,7 +164,7 @@ impl Edge {
     }
 }
 
-/// The edges that are long enough and have not been tested.
+/// Returns the edges that are long enough and have not been tested.
 fn untested_edges(mesh: &PatchMesh, min_edge: f32, tested: &mut FxHashSet<[LightKey; 2]>) -> Vec<Edge> {
     let mut index_of: FxHashMap<[usize; 2], usize> = FxHashMap::default();
     let mut edges: Vec<Edge> = Vec::new();

@@ -10,13 +10,13 @@ pub struct Field {
 }
 
 impl Field {
-    /// Zero everywhere.
+    /// Returns a field that is zero everywhere.
     #[must_use]
     pub fn zero(num_places: usize, num_groups: usize) -> Self {
         Self { num_groups, values: vec![Vec3::ZERO; num_places * num_groups] }
     }
 
-    /// The values of places in order, each with `num_groups` groups.
+    /// Returns a field with the given values of places in order, each with `num_groups` groups.
     #[must_use]
     pub fn from_values(num_groups: usize, values: Vec<Vec3>) -> Self {
         Self { num_groups, values }
@@ -45,7 +45,7 @@ impl Field {
         &mut self.values[place * self.num_groups..(place + 1) * self.num_groups]
     }
 
-    /// The sum over the groups at a place.
+    /// Sum over the groups at a place.
     #[must_use]
     pub fn total(&self, place: usize) -> Vec3 {
         self.at(place).iter().sum()

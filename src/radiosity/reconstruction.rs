@@ -1,4 +1,4 @@
-//! Reconstruction: from irradiance at light vertices or elements to the mesh that is drawn.
+//! Reconstruction: transfers irradiance from light vertices or elements to the mesh that is drawn.
 
 use glam::Vec3;
 
@@ -6,7 +6,7 @@ use super::field::Field;
 use crate::baked::{GroupLight, VertexLight};
 use crate::patch::PatchMesh;
 
-/// Light at light vertices `[l][g]` spread to the vertices `[v]` of the drawn mesh.
+/// Copies light at light vertices `[l][g]` to the vertices `[v]` of the drawn mesh.
 #[must_use]
 pub fn vertex_light(mesh: &PatchMesh, direct: &Field, indirect: &Field) -> VertexLight {
     let of_group = |field: &Field, g: usize| mesh.light_vertex_of.iter().map(|&l| field.at(l as usize)[g]).collect();
@@ -16,7 +16,7 @@ pub fn vertex_light(mesh: &PatchMesh, direct: &Field, indirect: &Field) -> Verte
     VertexLight { groups }
 }
 
-/// The mean over the elements around each light vertex `[l][g]`, weighted by area.
+/// Returns the mean over the elements around each light vertex `[l][g]`, weighted by area.
 #[must_use]
 pub fn average(mesh: &PatchMesh, on_elements: &Field) -> Field {
     let num_groups = on_elements.num_groups();
@@ -38,8 +38,8 @@ pub fn average(mesh: &PatchMesh, on_elements: &Field) -> Field {
     sums
 }
 
-/// Replaces the light of vertices inside or behind a solid by the mean of their valid neighbours along the mesh, so that no
-/// darkness is interpolated into the open.
+/// Replaces the light of vertices inside or behind a solid by the mean of their valid neighbours along the mesh, so
+/// that interpolation does not spread their darkness over open surfaces.
 ///
 /// Vertices without a valid neighbour stay unchanged: the elements around them are hidden.
 pub fn fill_hidden(mesh: &PatchMesh, is_valid: &[bool], fields: [&mut Field; 2]) {

@@ -14,8 +14,8 @@ use crate::scene::{Scene, normal_of};
 /// Height of a viewpoint above its surface, as a share of the scene's extent: well above rounding errors, well below detail.
 const HEIGHT: f32 = 2e-5;
 
-/// Share of the way from a vertex to the middle of the elements around it by which its viewpoint is moved: a vertex in a
-/// corner of a room lies exactly in the other wall, its viewpoint must not.
+/// Share of the way from a vertex to the middle of the elements around it by which its viewpoint is moved. A vertex in
+/// a corner of a room lies exactly in the other wall, but its viewpoint must not.
 const INSET: f32 = 0.05;
 
 /// Smallest cosine between a shading normal and the normal of an element at which the viewpoint is lifted above it.
@@ -28,7 +28,7 @@ pub struct Viewpoints {
 }
 
 impl Viewpoints {
-    /// The height follows from the extent of the scene.
+    /// Derives the height from the extent of the scene.
     #[must_use]
     pub fn new(scene: &Scene) -> Self {
         Self { height: HEIGHT * scene.bounds().extent() }
@@ -49,7 +49,8 @@ impl Viewpoints {
         mesh.light_vertices.iter().enumerate().map(&mut viewpoint).collect()
     }
 
-    /// The viewpoint of a light vertex: moved slightly towards the middle of the elements `around` it, and above all of them.
+    /// Returns the viewpoint of a light vertex, moved slightly towards the middle of the elements `around` it, and
+    /// above all of them.
     #[must_use]
     pub fn at_vertex(
         &self,
@@ -61,9 +62,9 @@ impl Viewpoints {
         let elements = || around.clone().map(|e| &mesh.elements[e.index()]);
         let num_elements = elements().count().max(1) as f32;
         let to_middle = elements().map(|element| mesh.centroid(element) - vertex.position).sum::<Vec3>() / num_elements;
-        // Only in the tangent plane: on a curved surface the middle lies below it.
+        // The offset lies in the tangent plane, because on a curved surface the middle lies below it.
         let offset = INSET * to_middle.reject_from(vertex.normal);
-        // A shading normal may lean away from the surface; the moved point then lies below it.
+        // If the shading normal leans away from the surface, the moved point lies below the surface.
         let depth = |element: &Element| {
             let normal = normal_of(mesh.corners(element));
             let cosine = normal.dot(vertex.normal);
@@ -110,14 +111,14 @@ impl Viewpoints {
             .collect()
     }
 
-    /// The viewpoint above a point on a surface.
+    /// Returns the viewpoint above a point on a surface.
     #[must_use]
     pub fn above(&self, position: Vec3, normal: Vec3, seed: u32) -> Viewpoint {
         Viewpoint { position: position + normal * self.height, normal, seed }
     }
 }
 
-/// The element nearest to the mean centroid.
+/// Returns the element nearest to the mean centroid.
 fn most_central(mesh: &PatchMesh, members: &[ElementId]) -> ElementId {
     let centroid = |e: &ElementId| mesh.centroid(&mesh.elements[e.index()]);
     let mean = members.iter().map(centroid).sum::<Vec3>() / members.len() as f32;
@@ -127,7 +128,7 @@ fn most_central(mesh: &PatchMesh, members: &[ElementId]) -> ElementId {
         .expect("a patch has members")
 }
 
-/// The element at which the running sum of areas reaches `area`.
+/// Returns the element at which the running sum of areas reaches `area`.
 fn at_area(mesh: &PatchMesh, members: &[ElementId], area: f32) -> ElementId {
     let mut sum = 0.0;
     for &element in members {

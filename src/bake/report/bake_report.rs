@@ -22,10 +22,10 @@ pub struct Report {
     /// Sizes of the scene and of its final mesh.
     #[serde(flatten)]
     pub mesh: MeshCounts,
-    /// How much work it took, and what is left of it.
+    /// Amount of work, and what remains unsolved.
     #[serde(flatten)]
     pub work: Work,
-    /// Where the light went, luminous flux in lumen.
+    /// Balance of luminous flux, lumen.
     pub energy: Flux,
     /// Measures of the quality of the solution.
     #[serde(flatten)]
@@ -36,23 +36,23 @@ pub struct Report {
     pub memory_bytes: Memory,
 }
 
-/// What was baked, and how.
+/// The scene and the method of a bake.
 #[derive(Clone, Debug, Serialize)]
 pub struct Configuration {
     /// Name of the scene.
     pub scene: String,
-    /// Preset.
+    /// Name of the preset.
     pub quality: Quality,
-    /// How form factors were computed.
+    /// Method by which form factors were computed.
     pub method: Method,
-    /// How the system was solved.
+    /// Solver of the system of patches.
     pub solver: Solver,
     /// Name of the device, or `none`.
     pub adapter: String,
 }
 
 impl Configuration {
-    /// The configuration of a bake by `method`.
+    /// Returns the configuration of a bake by `method`.
     pub(in crate::bake) fn new(scene: &Scene, settings: &BakeSettings, method: Method, gpu: Option<&Gpu>) -> Self {
         Self {
             scene: scene.name.clone(),
@@ -67,20 +67,20 @@ impl Configuration {
 /// Sizes of a scene and of its final mesh.
 #[derive(Clone, Debug, Serialize)]
 pub struct MeshCounts {
-    /// Triangles of the scene.
+    /// Number of triangles of the scene.
     pub input_triangles: usize,
-    /// Elements, which receive light.
+    /// Number of elements, which receive light.
     pub elements: usize,
-    /// Patches, which shoot light.
+    /// Number of patches, which shoot light.
     pub patches: usize,
-    /// Light vertices, at which light is stored.
+    /// Number of light vertices, at which light is stored.
     pub vertices: usize,
     /// Names of the light groups.
     pub light_groups: Vec<String>,
 }
 
 impl MeshCounts {
-    /// Counts of a scene and its mesh.
+    /// Returns the counts of a scene and its mesh.
     pub(in crate::bake) fn new(scene: &Scene, mesh: &PatchMesh) -> Self {
         Self {
             input_triangles: scene.triangles.len(),
@@ -92,16 +92,16 @@ impl MeshCounts {
     }
 }
 
-/// How much work a bake took, and what is left of it.
+/// Amount of work of a bake, and what remains unsolved.
 #[derive(Clone, Debug, Serialize)]
 pub struct Work {
-    /// Hemicubes or hemispheres sampled, for patches and vertices.
+    /// Number of hemicubes or hemispheres sampled, for patches and vertices.
     pub hemicubes: usize,
     /// Width of the hemicubes of the final gather, pixels.
     pub hemicube_px: u32,
     /// Number of shots; a patch may shoot several times.
     pub shots: usize,
-    /// Shots per patch, Jacobi passes (the last adds the light of that many reflections) or Gauss-Seidel sweeps.
+    /// Shots per patch, Jacobi passes (pass n adds the light of the n-th reflection) or Gauss-Seidel sweeps.
     pub passes: usize,
     /// Share of the first reflected power that was not shot.
     pub unshot_share: f64,
@@ -114,26 +114,26 @@ pub struct Work {
 pub struct Certificate {
     /// Share of the patches' views that ends on surfaces that receive light.
     pub closure: Closure,
-    /// How far the form factors between patches are from A_i F_ij = A_j F_ji.
+    /// Deviation of the form factors between patches from reciprocity, A_i F_ij = A_j F_ji.
     pub reciprocity_residual: f64,
-    /// Largest step of light between two vertices of an element, relative to the brighter one.
+    /// Largest difference of light between two vertices of an element, relative to the brighter one.
     pub largest_neighbour_step: f32,
     /// Mean share of back faces in the views of the final gather.
     pub backface_share: f32,
-    /// Vertices inside or behind a solid.
+    /// Number of vertices inside or behind a solid.
     pub hidden_vertices: usize,
 }
 
 /// Luminous flux, lumen.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Flux {
-    /// Arrived at surfaces straight from the lights.
+    /// Flux that arrived at surfaces straight from the lights.
     pub emitted: f64,
-    /// Absorbed by surfaces.
+    /// Flux absorbed by surfaces.
     pub absorbed: f64,
-    /// Reflected but not shot.
+    /// Flux reflected but not shot.
     pub unshot: f64,
-    /// Left the scene.
+    /// Flux that left the scene.
     pub escaped: f64,
     /// Share of the emitted power that is missing from the balance, in the worst channel.
     pub imbalance: f64,

@@ -1,17 +1,17 @@
-//! The memory that a bake took.
+//! The memory that a bake used.
 
 use serde::Serialize;
 
 /// Memory, bytes.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Memory {
-    /// Predicted before the bake.
+    /// Memory predicted before the bake.
     pub predicted: u64,
-    /// Most that the process has held until the end of the bake; `None` (null) if the system does not report it.
+    /// Peak memory of the process until the end of the bake; `None` (null) if the system does not report it.
     pub peak: Option<u64>,
 }
 
-/// Most memory that the process has held so far, bytes; `None` if the system does not report it.
+/// Returns the peak memory of the process so far, bytes, or `None` if the system does not report it.
 pub(in crate::bake) fn peak_memory() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

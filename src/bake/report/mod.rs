@@ -1,4 +1,4 @@
-//! What a bake reports: the certificate of its solution, counts, times and memory.
+//! Report of a bake: the certificate of its solution, counts, times and memory.
 
 mod bake_report;
 mod memory;

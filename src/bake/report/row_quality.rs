@@ -9,16 +9,16 @@ use crate::radiosity::solver::{PatchRow, RowStore};
 /// Share of a patch's view that ends on surfaces that receive light: 1 everywhere in a closed room.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Closure {
-    /// That of the most open patch.
+    /// Closure of the most open patch.
     pub min: f32,
-    /// The mean over all patches whose row is kept.
+    /// Mean over all patches whose row is stored.
     pub mean: f32,
-    /// That of the most closed patch.
+    /// Closure of the most closed patch.
     pub max: f32,
 }
 
 impl Closure {
-    /// Over all kept rows; 0 if there are none.
+    /// Computes closure over all stored rows; 0 if there are none.
     fn of(mesh: &PatchMesh, rows: &RowStore) -> Self {
         let sums: Vec<f32> =
             kept(mesh, rows).map(|(_, row)| row.entries.iter().map(|entry| entry.factor).sum()).collect();
@@ -33,7 +33,7 @@ impl Closure {
     }
 }
 
-/// Closure and reciprocity of the kept rows of a mesh.
+/// Closure and reciprocity of the stored rows of a mesh.
 pub(in crate::bake) struct RowQuality {
     pub closure: Closure,
     pub reciprocity_residual: f64,
@@ -45,7 +45,8 @@ impl RowQuality {
     }
 }
 
-/// How far the form factors between patches are from reciprocal (A_i F_ij = A_j F_ji), over all pairs with kept rows.
+/// Deviation of the form factors between patches from reciprocity (A_i F_ij = A_j F_ji), over all pairs with stored
+/// rows.
 ///
 /// Equation: sum of |A_i F_ij - A_j F_ji| over sum of (A_i F_ij + A_j F_ji).
 fn reciprocity_residual(mesh: &PatchMesh, rows: &RowStore) -> f64 {
@@ -68,7 +69,7 @@ fn reciprocity_residual(mesh: &PatchMesh, rows: &RowStore) -> f64 {
     if total > 0.0 { residual / total } else { 0.0 }
 }
 
-/// The kept rows.
+/// Returns the patches with stored rows, and their rows.
 fn kept<'a>(mesh: &PatchMesh, rows: &'a RowStore) -> impl Iterator<Item = (PatchId, &'a PatchRow)> {
     (0..mesh.patches.len()).map(PatchId::new).filter_map(|patch| Some((patch, rows.get(patch)?)))
 }

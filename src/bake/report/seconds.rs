@@ -7,15 +7,15 @@ use crate::base::progress::Stage;
 /// Seconds spent in each stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Seconds {
-    /// Elements and patches.
+    /// Subdivision into elements and patches.
     pub mesh: f64,
-    /// Direct light.
+    /// Computation of direct light.
     pub direct: f64,
     /// Form factors of patches, a part of `solve`.
     pub form_factors: f64,
-    /// The system of patches.
+    /// Solution of the system of patches.
     pub solve: f64,
-    /// Indirect light of vertices.
+    /// Gathering of indirect light at vertices.
     pub gather: f64,
     /// The whole bake.
     pub total: f64,

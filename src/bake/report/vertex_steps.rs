@@ -1,14 +1,15 @@
-//! How well the mesh resolves the light: steps between neighbouring vertices.
+//! Measures how well the mesh resolves the light: differences between neighbouring vertices.
 
 use crate::baked::VertexLight;
 use crate::base::colour::luminance;
 use crate::scene::Scene;
 
-/// Least light that steps are compared with, as a share of the mean over the vertices: steps in the dark are invisible.
+/// Differences are relative to at least this share of the mean light over the vertices, because differences in the dark
+/// are invisible.
 const FLOOR: f32 = 0.05;
 
-/// The largest step of light between two vertices of an element, relative to the brighter one: close to 1 if the edge of a
-/// deep shadow lies within an element.
+/// Returns the largest difference of light between two vertices of an element, relative to the brighter one. It is
+/// close to 1 if the edge of a deep shadow lies within an element.
 pub(in crate::bake) fn largest_neighbour_step(scene: &Scene, light: &VertexLight) -> f32 {
     let total: Vec<f32> = (0..scene.vertices.len())
         .map(|v| light.groups.iter().map(|group| luminance(group.direct[v] + group.indirect[v])).sum())

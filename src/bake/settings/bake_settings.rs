@@ -1,4 +1,4 @@
-//! All numbers of a bake, and the sizes that they mean on a given scene.
+//! All settings of a bake, and the sizes that follow from them for a given scene.
 
 use super::{Method, Quality, Solver};
 use crate::patch::MeshSettings;
@@ -10,24 +10,24 @@ use crate::scene::Scene;
 /// How a scene is baked: the choices of a user, and the numbers of a preset behind them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakeSettings {
-    /// The preset that the other values started from.
+    /// The preset that the other values are based on.
     pub quality: Quality,
     /// Longest element edge, metres; `None` derives it from the area of the scene.
     pub element_size: Option<f32>,
-    /// How form factors are computed; `None` takes the faster method.
+    /// Method of computing form factors; `None` chooses the faster one.
     pub method: Option<Method>,
-    /// How the system of patches is solved.
+    /// Solver of the system of patches.
     pub solver: Solver,
-    /// Progressive: shots per patch, on average, after which shooting ends (`None`: 64). Gathering: number of passes (`None`:
-    /// until the light changes no more).
+    /// Progressive: shots per patch, on average, after which shooting ends (`None`: 64). Gathering: number of passes
+    /// (`None`: until the light converges).
     pub passes: Option<usize>,
     /// Share of the first unshot power at which shooting ends.
     pub threshold: f32,
     /// Width of the hemicubes of the final gather, pixels.
     pub hemicube_px: u32,
-    /// Rays of the hemispheres of the final gather.
+    /// Number of rays of the hemispheres of the final gather.
     pub hemisphere_rays: u32,
-    /// How many elements and patches a derived size aims at.
+    /// Approximate numbers of elements and patches from which sizes are derived.
     pub budget: MeshBudget,
     /// How elements follow the light.
     pub refinement: Refinement,
@@ -35,36 +35,37 @@ pub struct BakeSettings {
     pub sampling: Sampling,
 }
 
-/// How many elements and patches a mesh aims at.
+/// Approximate numbers of elements and patches of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshBudget {
-    /// Elements before light subdivides them.
+    /// Number of elements before subdivision by light.
     pub elements: f64,
-    /// Patches.
+    /// Number of patches.
     pub patches: f64,
 }
 
 /// How elements are subdivided where light is not linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refinement {
-    /// Deviation from the mean of its ends at which an edge is halved, relative to the light there; 0 halves none.
+    /// Deviation of the light at an edge's midpoint from the mean of its ends at which the edge is halved, relative to
+    /// the light there; 0 halves none.
     pub max_error: f32,
     /// Shortest edges made before light is reflected, in element sizes.
     pub min_edge: f32,
     /// Shortest edges of hard shadows in the result, in element sizes.
     pub sharp_edge: f32,
-    /// About the most elements, as a multiple of the budget and half of the input triangles.
+    /// Approximate limit of the number of elements, as a multiple of the budget and half of the input triangles.
     pub max_growth: f32,
 }
 
 /// How densely light is sampled.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sampling {
-    /// Viewpoints per patch.
+    /// Number of viewpoints per patch.
     pub points_a_patch: usize,
-    /// Points per element at which direct light is sampled.
+    /// Number of points per element at which direct light is sampled.
     pub points_an_element: usize,
-    /// Rays per viewpoint and emitter in penumbrae.
+    /// Number of rays per viewpoint and emitter in penumbrae.
     pub num_penumbra_rays: u32,
     /// Largest error of the irradiance cache.
     pub cache_tolerance: f32,
@@ -72,10 +73,10 @@ pub struct Sampling {
     pub noise: f32,
 }
 
-/// Rays per point and emitter in penumbrae where only the mean over a patch matters.
+/// Number of rays per point and emitter in penumbrae where only the mean over a patch matters.
 pub(in crate::bake) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 64;
 
-/// Rays of the hemispheres of patches.
+/// Number of rays of the hemispheres of patches.
 pub(in crate::bake) const SHOOTING_RAYS: u32 = 512;
 
 /// Largest radius of a record of the irradiance cache, in element sizes.
@@ -84,7 +85,7 @@ const MAX_RADIUS: f32 = 4.0;
 /// Shots per patch, on average, after which shooting ends.
 const MAX_SHOTS_A_PATCH: usize = 64;
 
-/// Memory for rows kept between shots, bytes.
+/// Memory for rows stored between shots, bytes.
 pub(in crate::bake) const ROW_BYTES: usize = 1 << 30;
 
 /// Mean area of an element in squares of the element size (bisection ends between 1/8 and 1/4).
@@ -94,14 +95,14 @@ const AREA_OF_ELEMENT: f64 = 0.18;
 const ELEMENTS_A_TRIANGLE: f64 = 0.5;
 
 impl Default for BakeSettings {
-    /// The medium preset.
+    /// Returns the medium preset.
     fn default() -> Self {
         Self::preset(Quality::default())
     }
 }
 
 impl BakeSettings {
-    /// The values of a preset.
+    /// Returns the values of a preset.
     #[must_use]
     pub fn preset(quality: Quality) -> Self {
         let medium = Self {
@@ -168,13 +169,13 @@ impl BakeSettings {
         MeshSettings { element_size, patch_size }
     }
 
-    /// About the most elements after subdivision.
+    /// Approximate limit of the number of elements after subdivision.
     pub(in crate::bake) fn max_elements(&self, scene: &Scene) -> usize {
         let aim = self.budget.elements + ELEMENTS_A_TRIANGLE * scene.triangles.len() as f64;
         (f64::from(self.refinement.max_growth) * aim) as usize
     }
 
-    /// How elements follow direct light before it is reflected.
+    /// Returns the settings of subdivision by direct light, before it is reflected.
     pub(in crate::bake) fn subdivision_by_direct(&self, scene: &Scene, sizes: &MeshSettings) -> SubdivisionSettings {
         let min_edge = self.refinement.min_edge * sizes.element_size;
         SubdivisionSettings {
@@ -185,7 +186,7 @@ impl BakeSettings {
         }
     }
 
-    /// How elements follow all light in the end, given how they followed direct light.
+    /// Returns the settings of the last subdivision, by all light, given those of subdivision by direct light.
     pub(in crate::bake) fn subdivision_by_all(
         &self,
         by_direct: SubdivisionSettings,
@@ -194,7 +195,7 @@ impl BakeSettings {
         SubdivisionSettings { min_edge: self.refinement.sharp_edge * sizes.element_size, ..by_direct }
     }
 
-    /// How vertices gather.
+    /// Returns the settings of the final gather at vertices.
     pub(in crate::bake) fn final_gather(&self, sizes: &MeshSettings) -> FinalGatherSettings {
         FinalGatherSettings {
             tolerance: self.sampling.cache_tolerance,
@@ -204,7 +205,7 @@ impl BakeSettings {
         }
     }
 
-    /// How patches shoot.
+    /// Returns the settings of progressive refinement.
     pub(in crate::bake) fn progressive(&self) -> ProgressiveSettings {
         ProgressiveSettings {
             threshold: self.threshold,

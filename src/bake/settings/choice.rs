@@ -25,7 +25,7 @@ macro_rules! choice_table {
                 }
             }
 
-            /// What it is for, in a few words.
+            /// Its purpose, in a few words.
             #[must_use]
             pub const fn hint(self) -> &'static str {
                 match self {

@@ -20,8 +20,9 @@ choice_table! {
 }
 
 impl Method {
-    /// The faster one: a graphics card draws hemicubes faster than the CPU traces rays; a software driver does not, because
-    /// a ray visits only the triangles near it, while an item buffer draws every triangle that may cover a pixel.
+    /// Returns the faster method. A graphics card draws hemicubes faster than the CPU traces rays. A software driver is
+    /// slower, because a ray visits only the triangles near it, while an item buffer draws every triangle that may
+    /// cover a pixel.
     #[must_use]
     pub fn fastest(gpu: Option<&Gpu>) -> Self {
         match gpu {

@@ -5,7 +5,7 @@ use super::choice::choice_table;
 /// A preset of all numbers of a bake.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
-    /// A first look in seconds.
+    /// For a first look within seconds.
     Draft,
     /// For walking through.
     #[default]

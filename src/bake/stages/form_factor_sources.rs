@@ -22,7 +22,7 @@ pub(in crate::bake) struct FormFactorSources<'a> {
 }
 
 impl<'a> FormFactorSources<'a> {
-    /// Sources by `method`, whose rows are kept in the row cache of `context` if it has one.
+    /// Creates sources by `method`. Their rows are stored in the row cache of `context` if it has one.
     ///
     /// # Errors
     /// Returns an error if hemicubes are requested without a device.
@@ -39,17 +39,17 @@ impl<'a> FormFactorSources<'a> {
         Ok(Self { gpu, mesh, tracer, row_cache: context.row_cache })
     }
 
-    /// Coarse form factors for the solver, which resolve patches and no detail.
+    /// Returns coarse form factors for the solver, which resolve patches but no detail.
     pub fn for_patches(self) -> Box<dyn FormFactorSource + 'a> {
         self.source(size_for_patches(self.tracer.scene(), self.mesh), SHOOTING_RAYS)
     }
 
-    /// Form factors of the final gather, whose light is displayed.
+    /// Returns the form factors of the final gather, whose light is displayed.
     pub fn for_vertices(self, settings: &BakeSettings) -> Box<dyn FormFactorSource + 'a> {
         self.source(settings.hemicube_px, settings.hemisphere_rays)
     }
 
-    /// Hemicubes `size_px` pixels wide if there is a device, else hemispheres of `num_rays` rays.
+    /// Returns hemicubes `size_px` pixels wide if there is a device, else hemispheres of `num_rays` rays.
     fn source(self, size_px: u32, num_rays: u32) -> Box<dyn FormFactorSource + 'a> {
         let (source, label): (Box<dyn FormFactorSource + 'a>, _) = match self.gpu {
             Some(gpu) => (

@@ -15,22 +15,23 @@ pub(in crate::bake) struct LitMesh {
 }
 
 impl LitMesh {
-    /// The mesh as a scene with direct light alone.
+    /// Returns the mesh as a scene with direct light alone.
     pub fn without_indirect(&self, scene: &Scene) -> BakedScene {
         self.with_indirect(scene, &Field::zero(self.direct.num_places(), self.direct.num_groups()))
     }
 
-    /// The mesh as a scene with direct light and `indirect` light `[l][g]`.
+    /// Returns the mesh as a scene with direct light and `indirect` light `[l][g]`.
     pub fn with_indirect(&self, scene: &Scene, indirect: &Field) -> BakedScene {
         BakedScene { light: vertex_light(&self.mesh, &self.direct, indirect), ..BakedScene::of_mesh(scene, &self.mesh) }
     }
 
-    /// The light of an unfinished solution.
+    /// Returns the light of an unfinished solution.
     pub fn estimate(&self, solution: &Solution) -> VertexLight {
         vertex_light(&self.mesh, &self.direct, &self.estimated_indirect(solution))
     }
 
-    /// Indirect light `[l][g]` of an unfinished solution: averages of the elements plus the ambient estimate.
+    /// Returns the indirect light `[l][g]` of an unfinished solution: averages of the elements plus the ambient
+    /// estimate.
     pub fn estimated_indirect(&self, solution: &Solution) -> Field {
         let ambient = solution.ambient_estimate(&self.mesh);
         let mut indirect = average(&self.mesh, &solution.indirect);

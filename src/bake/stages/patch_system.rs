@@ -19,10 +19,10 @@ use crate::radiosity::solver::progressive::Progressive;
 use crate::radiosity::solver::{Energy, Solution};
 use crate::radiosity::{Field, Viewpoints};
 
-/// Patches whose rows are computed between two progress reports.
+/// Number of patches whose rows are computed between two progress reports.
 const PATCHES_A_BATCH: usize = 64;
 
-/// Largest relative change of a Jacobi pass at which it is the last.
+/// Jacobi iteration ends when the relative change of a pass is at most this.
 const CONVERGED: f32 = 1e-4;
 
 /// The light that patches reflect.
@@ -35,11 +35,11 @@ pub(in crate::bake) struct PatchSolution {
     pub num_passes: usize,
     /// Share of the first reflected power that is unshot.
     pub unshot_share: f64,
-    /// Seconds that form factors took.
+    /// Time spent on form factors, seconds.
     pub form_factor_seconds: f64,
 }
 
-/// The patches of a mesh, and what their solvers need.
+/// The patches of a mesh, and the inputs of their solvers.
 pub(in crate::bake) struct PatchSystem<'a> {
     pub mesh: &'a PatchMesh,
     pub viewpoints: Viewpoints,
@@ -60,7 +60,8 @@ impl PatchSystem<'_> {
         }
     }
 
-    /// Progressive refinement, then Jacobi iteration over the kept rows to remove the proximity error of shooting.
+    /// Solves by progressive refinement, then by Jacobi iteration over the stored rows to remove the proximity error of
+    /// shooting.
     fn solve_progressively(&self, direct: Field) -> Result<PatchSolution, BakeError> {
         let mut source = self.sources.for_patches();
         let mut solver = Progressive::new(self.mesh, self.viewpoints, direct, self.settings.progressive());
@@ -82,7 +83,8 @@ impl PatchSystem<'_> {
         Ok(PatchSolution { solution, rows, radiosity, num_passes, unshot_share, form_factor_seconds })
     }
 
-    /// Jacobi iteration from the dark. The first pass is the direct light, and the last one is the gather of the vertices.
+    /// Solves by Jacobi iteration, starting from darkness. The first pass is the direct light, and the last one is the
+    /// gather of the vertices.
     fn solve_by_passes(&self, direct: Field) -> Result<PatchSolution, BakeError> {
         let (rows, form_factor_seconds) = self.all_rows()?;
         let mut on_patches = Field::zero(self.mesh.patches.len(), direct.num_groups());
@@ -106,7 +108,7 @@ impl PatchSystem<'_> {
         Ok(PatchSolution { solution, rows, radiosity, num_passes, unshot_share, form_factor_seconds })
     }
 
-    /// The full matrix, by Gauss-Seidel iteration.
+    /// Solves the full matrix by Gauss-Seidel iteration.
     fn solve_full_matrix(&self, direct: Field) -> Result<PatchSolution, BakeError> {
         full_matrix::check_size(self.mesh)?;
         let (rows, form_factor_seconds) = self.all_rows()?;
@@ -118,7 +120,7 @@ impl PatchSystem<'_> {
         Ok(PatchSolution { solution, rows, radiosity, num_passes, unshot_share, form_factor_seconds })
     }
 
-    /// The rows of all patches, and the seconds that they took.
+    /// Computes the rows of all patches, and returns them with the seconds that they took.
     fn all_rows(&self) -> Result<(RowStore, f64), BakeError> {
         let start = Instant::now();
         let mut source = self.sources.for_patches();
@@ -133,7 +135,7 @@ impl PatchSystem<'_> {
         Ok((rows, start.elapsed().as_secs_f64()))
     }
 
-    /// The solution of a gathering solver, with its energy balance.
+    /// Returns the solution of a gathering solver, with its energy balance.
     fn solution(&self, direct: Field, on_patches: &Field, rows: &RowStore, num_passes: usize) -> Solution {
         let energy = Energy::of_gathered(self.mesh, &direct, on_patches, rows);
         let patch_of = |e: usize| on_patches.at(self.mesh.elements[e].patch.index());

@@ -1,4 +1,4 @@
-//! The last stage: indirect light at the vertices, with more of them where it changes.
+//! The last stage: indirect light at the vertices, with more vertices where it changes.
 
 use super::lit_mesh::LitMesh;
 use crate::bake::settings::{BakeSettings, Solver};
@@ -12,18 +12,18 @@ use crate::scene::Scene;
 
 /// The indirect light of vertices.
 pub(in crate::bake) struct VertexGather {
-    /// The refined mesh that the light belongs to; `None` if the mesh stayed as it was.
+    /// The refined mesh that the light belongs to; `None` if the mesh is unchanged.
     pub refined: Option<LitMesh>,
     /// Indirect light `[l][g]`, as far as it is known.
     pub gathered: GatheredLight,
-    /// Viewpoints that were gathered from.
+    /// Number of viewpoints that were gathered from.
     pub num_hemicubes: usize,
     /// Mean share of backs in their views.
     pub backface_share: f32,
 }
 
 impl VertexGather {
-    /// No indirect light is known.
+    /// Returns a gather without any known indirect light.
     pub fn unknown(lit: &LitMesh) -> Self {
         let gathered = GatheredLight::unknown(lit.direct.num_places(), lit.direct.num_groups());
         Self { refined: None, gathered, num_hemicubes: 0, backface_share: 0.0 }
@@ -34,8 +34,8 @@ impl VertexGather {
         self.gathered.is_valid.iter().filter(|valid| !**valid).count()
     }
 
-    /// The final mesh with its light: the gathered light, or the estimate from `solution` at vertices without it; hidden
-    /// vertices take the light of their neighbours.
+    /// Returns the final mesh with its light: the gathered light, or the estimate from `solution` at vertices without
+    /// it. Hidden vertices take the light of their neighbours.
     pub fn put_on_mesh(
         self,
         scene: &Scene,
@@ -54,7 +54,7 @@ impl VertexGather {
         (lit.mesh, baked)
     }
 
-    /// The gathered light, completed by an estimate if the gather was cancelled.
+    /// Returns the gathered light, completed by an estimate if the gather was cancelled.
     fn completed(&self, estimate: impl Fn() -> Field) -> Field {
         let GatheredLight { indirect, is_known, .. } = &self.gathered;
         if is_known.iter().all(|known| *known) {

@@ -1,4 +1,4 @@
-//! Light at vertices, and the mesh that follows it.
+//! Light at vertices, and the subdivision of the mesh according to it.
 
 use super::form_factor_sources::FormFactorSources;
 use super::lit_mesh::LitMesh;
@@ -14,7 +14,8 @@ use crate::radiosity::direct::{DirectLight, is_inside_solid};
 use crate::radiosity::gather::{FinalGather, FinalGatherSettings, GatheredLight};
 use crate::radiosity::{Field, Viewpoints};
 
-/// Least luminance that errors are compared with, as a share of the mean over the vertices: errors in the dark are invisible.
+/// Errors are relative to at least this share of the mean luminance over the vertices, because errors in the dark are
+/// invisible.
 const FLOOR: f32 = 0.05;
 
 /// Samples the light of vertices and subdivides the mesh where it is not linear.
@@ -28,7 +29,7 @@ pub(in crate::bake) struct VertexLighting<'a> {
 }
 
 impl<'a> VertexLighting<'a> {
-    /// Subdivides and gathers by `settings`; `sizes` are those of the first mesh.
+    /// Creates the lighting of vertices with `settings`; `sizes` are those of the first mesh.
     pub fn new(
         lights: &'a DirectLight<'a>,
         settings: &'a BakeSettings,
@@ -57,7 +58,7 @@ impl<'a> VertexLighting<'a> {
         Ok(LitMesh { mesh, direct: sampled.light })
     }
 
-    /// Gathers reflected `radiosity` `[e][g]` at the vertices of `lit`; nothing if there is none.
+    /// Gathers reflected `radiosity` `[e][g]` at the vertices of `lit`. Without radiosity it gathers nothing.
     pub fn gather(
         &self,
         sources: FormFactorSources<'_>,
@@ -73,7 +74,8 @@ impl<'a> VertexLighting<'a> {
         let mut gathered = final_gather.at(&mut *source, &viewpoints, self.observer)?;
         let mut refined = None;
         if !self.observer.is_cancelled() {
-            // A limited number of passes shows the light of that many reflections, without further ones in the near field.
+            // A limited number of passes shows the light of that many reflections. The near-field correction would add
+            // further ones.
             if self.settings.passes.is_none() {
                 final_gather.correct_near_field(&viewpoints, &lit.direct, &mut gathered);
             }
@@ -87,8 +89,8 @@ impl<'a> VertexLighting<'a> {
         Ok(VertexGather { refined, gathered, num_hemicubes, backface_share })
     }
 
-    /// Subdivides a mesh until direct and indirect light are linear along its edges; `None` if the settings ask for no
-    /// subdivision, or after a cancel.
+    /// Subdivides a mesh until direct and indirect light are linear along its edges. Returns `None` if the settings
+    /// request no subdivision, or after a cancel.
     fn refine_by_all(
         &self,
         subdivision: &mut AdaptiveSubdivision<'_>,
@@ -114,7 +116,7 @@ impl<'a> VertexLighting<'a> {
         };
         let (mesh, sampled) = subdivision.refine(lit.mesh.clone(), sampled, &self.by_all, floor, &mut evaluate)?;
         if self.observer.is_cancelled() {
-            // The light of the newest vertices is incomplete; that of the mesh before is not.
+            // The light of the newest vertices is incomplete, but that of the previous mesh is complete.
             return Ok(None);
         }
         let part = |first: usize| {
@@ -129,10 +131,10 @@ impl<'a> VertexLighting<'a> {
         self.settings.refinement.max_error > 0.0 && !self.observer.is_cancelled()
     }
 
-    /// Direct light; dark viewpoints are also tested for lying inside a solid.
+    /// Samples direct light. Dark viewpoints are also tested for lying inside a solid.
     fn direct(&self, viewpoints: &[Viewpoint]) -> SampledLight {
         let light = self.lights.irradiance(viewpoints, self.observer);
-        // After a cancel, dark viewpoints may simply not have been reached.
+        // After a cancel, viewpoints may be dark only because they were not reached.
         let is_cancelled = self.observer.is_cancelled();
         let is_open = |l: usize| {
             !is_cancelled && (luminance(light.total(l)) > 0.0 || !is_inside_solid(self.lights.tracer(), &viewpoints[l]))
@@ -142,7 +144,7 @@ impl<'a> VertexLighting<'a> {
     }
 }
 
-/// Direct and gathered light side by side: columns `[0..g]` are direct, `[g..2g]` indirect.
+/// Joins direct and gathered light: columns `[0..g]` are direct, `[g..2g]` indirect.
 fn joined(direct: &Field, gathered: &GatheredLight) -> SampledLight {
     let columns = |l: usize| direct.at(l).iter().chain(gathered.indirect.at(l)).copied();
     let places = 0..gathered.is_valid.len();

@@ -14,8 +14,8 @@ use crate::gpu::Gpu;
 /// Bytes from one view to the next: the largest alignment of dynamic uniform offsets that any device requires.
 const VIEW_STRIDE: usize = 256;
 
-/// Vertices of one draw call without culling: a software driver processes all vertices of a call again for every few clipped
-/// triangles.
+/// Largest number of vertices of one draw call without culling. A software driver processes all vertices of a call
+/// again for every few clipped triangles.
 const MAX_VERTICES: u32 = 3 * 512;
 
 /// Targets and buffers of one submission in flight.
@@ -29,7 +29,7 @@ pub(super) struct Atlas {
     readback: wgpu::Buffer,
 }
 
-/// What every submission draws with.
+/// Resources that every submission draws with.
 pub(super) struct AtlasDraw<'a> {
     pub gpu: &'a Gpu,
     pub pipeline: &'a wgpu::RenderPipeline,

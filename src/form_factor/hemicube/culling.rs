@@ -1,4 +1,4 @@
-//! What a face need not draw: chunks outside its frustum, and triangles that cover the centre of no pixel.
+//! Selects what a face draws: skips chunks outside its frustum, and triangles that cover the centre of no pixel.
 //!
 //! In a finely modelled scene most triangles in view fall between the pixels of a hemicube. A driver rejects them too, but
 //! only after it has shaded and set up their corners.
@@ -13,7 +13,8 @@ use crate::scene::chunks::{CHUNK, chunk_bounds};
 /// Triangles tested together.
 const LANES: usize = 4;
 
-/// Pixels by which a device may displace a corner: it snaps to a sixteenth of a pixel or finer, and rounds.
+/// Distance in pixels by which a device may displace a corner: it snaps corners to a sixteenth of a pixel or finer, and
+/// rounds.
 const DISPLACEMENT: f32 = 1.0 / 32.0 + ROUNDING;
 const ROUNDING: f32 = 1.0 / 64.0;
 
@@ -24,14 +25,14 @@ const CLIP_ERROR: f32 = 8.0 * f32::EPSILON;
 pub(super) struct Culling {
     chunks: Vec<Bounds>,
     lanes: Vec<Lanes>,
-    /// Largest coordinate.
+    /// Largest coordinate of the scene.
     reach: f32,
 }
 
 /// Corners of four triangles: `[corner][axis]`. Unused lanes are NaN, which fails every comparison.
 type Lanes = [[Vec4; 3]; 3];
 
-/// A chunk in view.
+/// A chunk that is in view.
 struct VisibleChunk {
     distance_squared: f32,
     chunk: usize,
@@ -92,7 +93,7 @@ struct Projection {
     /// Rows x, y and w of the clip-from-world matrix.
     rows: [[Vec4; 4]; 3],
     near: Vec4,
-    /// Corners nearer than this may be projected anywhere, so their triangles are always drawn.
+    /// Rounding may move the projections of corners nearer than this anywhere, so their triangles are always drawn.
     too_near: Vec4,
     /// Half of the width and of the height, pixels.
     half: [Vec4; 2],
@@ -113,7 +114,7 @@ impl Projection {
         }
     }
 
-    /// The lanes whose triangles may cover the centre of a pixel, as bits: lane 0 is the lowest.
+    /// Returns the lanes whose triangles may cover the centre of a pixel, as bits: lane 0 is the lowest.
     fn covering(&self, lanes: &Lanes) -> u32 {
         let clip =
             |[x, y, z]: &[Vec4; 3]| self.rows.map(|[to_x, to_y, to_z, offset]| to_x * x + to_y * y + to_z * z + offset);
@@ -151,8 +152,8 @@ impl Projection {
     }
 }
 
-/// The lanes whose triangles may contain a point: a triangle that contains it after its corners were displaced lies within
-/// that displacement of it.
+/// Returns the lanes whose triangles may contain a point. If a triangle contains the point after its corners were
+/// displaced, the original triangle lies within that displacement of the point.
 fn may_hold([x, y]: &[[Vec4; 3]; 2], [px, py]: [Vec4; 2]) -> BVec4A {
     let sides: [[Vec4; 2]; 3] = std::array::from_fn(|i| {
         let j = (i + 1) % 3;
@@ -178,7 +179,7 @@ mod tests {
         [1, 4, 7].map(|i| 4.0 * random(10) + size * random(i))
     }
 
-    /// Whether a triangle in front of the eye covers the centre of a pixel, in doubles.
+    /// Returns true if a triangle in front of the eye covers the centre of a pixel, in double precision.
     fn covers(matrix: &Mat4, (width, height): (u32, u32), corners: [Vec3; 3]) -> bool {
         let clip = corners.map(|p| matrix.as_dmat4() * p.as_dvec3().extend(1.0));
         let [a, b, c] = clip.map(|p| [p.x / p.w, p.y / p.w]);

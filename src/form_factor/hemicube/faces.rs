@@ -6,7 +6,7 @@ use super::layout::Layout;
 use crate::base::sampling::{hash, tangent_frame, unit_float};
 use crate::form_factor::Viewpoint;
 
-/// Faces of a hemicube: the top and four half sides.
+/// Number of faces of a hemicube: the top and four half sides.
 pub(super) const NUM_FACES: usize = 5;
 
 /// Width and height of face `face` and its first row within the atlas cell of a hemicube `n` pixels wide.
@@ -16,7 +16,7 @@ pub(super) fn cell_rectangle(face: usize, n: u32) -> (u32, u32, u32) {
 
 /// Clip-from-world matrices of the five faces: reversed depth, no far plane.
 ///
-/// The sides show only the half above the horizon: their projection is off-centre, so no pixel is wasted.
+/// The sides show only the half above the horizon, so their projection is off-centre and no pixel is wasted.
 pub(super) fn projections(viewpoint: &Viewpoint, near: f32) -> [Mat4; NUM_FACES] {
     let normal = viewpoint.normal;
     let (tangent, bitangent) = tangent_frame(normal);
@@ -51,7 +51,7 @@ pub(super) struct Face {
 }
 
 impl Face {
-    /// Width and height, pixels.
+    /// Width and height of the face, pixels.
     pub fn size(&self) -> (u32, u32) {
         (self.rectangle[2], self.rectangle[3])
     }
@@ -80,7 +80,7 @@ mod tests {
         Viewpoint { position: Vec3::new(1.0, 2.0, 3.0), normal, seed: 5 }
     }
 
-    /// Normalised device coordinates of a point; `None` if it lies behind the face.
+    /// Returns the normalised device coordinates of a point, or `None` if it lies behind the face.
     fn project(matrix: &Mat4, point: Vec3) -> Option<Vec3> {
         let clip = *matrix * point.extend(1.0);
         (clip.w > 0.0).then(|| clip.truncate() / clip.w)

@@ -21,7 +21,7 @@ pub(super) struct Geometry {
     pub cutouts: wgpu::Buffer,
     pub alphas: wgpu::Buffer,
     pub has_cutouts: bool,
-    /// What each face need not draw; `None` draws everything.
+    /// Selects the triangles that each face draws; `None` draws everything.
     pub culling: Option<Culling>,
     pub num_vertices: u32,
 }

@@ -16,7 +16,7 @@ use crate::gpu::{Gpu, GpuError};
 use crate::patch::PatchMesh;
 use crate::scene::Scene;
 
-/// Atlases in flight: one is summed while one is drawn and one is queued.
+/// Number of atlases in flight: one is summed while one is drawn and one is queued.
 const NUM_ATLASES: usize = 3;
 
 /// Sizes a hemicube may have, pixels.
@@ -34,7 +34,7 @@ pub struct Hemicubes<'a> {
 }
 
 impl<'a> Hemicubes<'a> {
-    /// Hemicubes `size_px` pixels wide: a power of two in [`SIZES`]; other sizes are rounded up to one.
+    /// Creates hemicubes `size_px` pixels wide: a power of two in [`SIZES`]. Other sizes are rounded up to one.
     #[must_use]
     pub fn new(gpu: &'a Gpu, scene: &Scene, mesh: &PatchMesh, size_px: u32) -> Self {
         let n = size_px.clamp(*SIZES.start(), *SIZES.end()).next_power_of_two();
@@ -69,7 +69,8 @@ impl<'a> Hemicubes<'a> {
         self.layout.n
     }
 
-    /// The element that each pixel of one hemicube sees, if any: the faces below each other, the top first, row by row.
+    /// Returns the element in view of each pixel of one hemicube, if any. The faces follow each other, the top first,
+    /// row by row.
     ///
     /// # Errors
     /// Returns an error if the device fails.

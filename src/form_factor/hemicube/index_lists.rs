@@ -8,13 +8,13 @@ use super::culling::Culling;
 use super::faces::Face;
 use crate::gpu::Gpu;
 
-/// Indices after which no further lists are made, which bounds their memory.
+/// Number of indices after which no further lists are made, to limit their memory.
 const MAX_INDICES: usize = 1 << 22;
 
-/// Faces culled in parallel.
+/// Number of faces culled in parallel.
 const FACES_AT_ONCE: usize = 64;
 
-/// The index lists of as many faces as fit, at least of the first.
+/// Returns the index lists of as many faces as fit, at least of the first.
 pub(super) fn index_lists(culling: &Culling, faces: &[Face]) -> Vec<Vec<u32>> {
     let (mut lists, mut num_indices) = (Vec::with_capacity(faces.len()), 0);
     for some in faces.chunks(FACES_AT_ONCE) {

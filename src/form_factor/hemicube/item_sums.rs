@@ -1,16 +1,16 @@
-//! From the items of one hemicube to its row of form factors: sums of delta form factors.
+//! Sums delta form factors over the items of one hemicube into its row of form factors.
 
 use crate::base::ids::ElementId;
 use crate::form_factor::{Entry, Row};
 
-/// Item of a pixel that sees nothing.
+/// Item of a pixel without an element in view.
 const NOTHING: u32 = 0;
 /// Item of element 0.
 const FIRST_ELEMENT: u32 = 1;
 /// Flag of an item: the pixel sees the black back of a single-sided surface whose front is the element.
 const BLACK_BACK: u32 = 1 << 31;
 
-/// The element that a pixel sees; `None` if it sees nothing or a black back.
+/// Returns the element that a pixel shows, or `None` if it shows nothing or a black back.
 pub(super) fn element_of(item: u32) -> Option<u32> {
     (item & BLACK_BACK == 0).then(|| item.checked_sub(FIRST_ELEMENT)).flatten()
 }

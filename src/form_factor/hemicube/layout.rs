@@ -1,8 +1,8 @@
-//! Where the hemicubes of a submission lie in an atlas.
+//! Places of the hemicubes of a submission in an atlas.
 
-/// Pixels across an atlas; a multiple of every hemicube size and of the copy alignment.
+/// Width of an atlas, pixels; a multiple of every hemicube size and of the copy alignment.
 pub(super) const ATLAS_WIDTH: u32 = 512;
-/// Pixels down an atlas: one hemicube of the largest size, 64 of the usual one.
+/// Height of an atlas, pixels. An atlas has room for one hemicube of the largest size, or 64 of the usual one.
 pub(super) const ATLAS_HEIGHT: u32 = 1536;
 
 /// The grid of cells of hemicubes `n` pixels wide; a cell is n wide and 3 n high: the top face, then four half sides.

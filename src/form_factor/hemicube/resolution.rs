@@ -6,7 +6,7 @@
 use crate::patch::PatchMesh;
 use crate::scene::Scene;
 
-/// Pixels across a patch at the middle of a face.
+/// Width of a patch at the middle of a face, pixels.
 const PIXELS_A_PATCH: f32 = 1.5;
 
 /// Share of the area that may lie in patches too small to be resolved.
@@ -25,7 +25,7 @@ pub fn size_for_patches(scene: &Scene, mesh: &PatchMesh) -> u32 {
     fewest << (pixels / fewest as f32).log2().round().clamp(0.0, (most / fewest).ilog2() as f32) as u32
 }
 
-/// The patch area below which only [`UNRESOLVED_SHARE`] of all area lies.
+/// Returns the patch area below which only [`UNRESOLVED_SHARE`] of all area lies.
 fn typical_area(mesh: &PatchMesh) -> f32 {
     let mut areas: Vec<f32> = mesh.patches.iter().map(|patch| patch.area).collect();
     areas.sort_unstable_by(f32::total_cmp);

@@ -1,4 +1,4 @@
-//! Form factor between two polygons by contour integrals: exact if nothing stands between.
+//! Form factor between two polygons by contour integrals: exact without occlusion.
 //!
 //! Stokes' theorem, applied twice, turns the double area integral of the form factor into a double integral along both
 //! outlines: F_AB = 1 / (2 pi A) x the contour integral over both boundaries of ln r dr_A . dr_B. Along one edge it has a
@@ -50,7 +50,7 @@ fn edge_pair((a, a_end): (DVec3, DVec3), (b, b_end): (DVec3, DVec3), tolerance: 
     if cosine.abs() < 1e-15 {
         return 0.0;
     }
-    // The integrand bends at the points closest to the ends of the other edge and to its line.
+    // The integrand has kinks at the points closest to the ends of the other edge and to its line.
     let foot = |point: DVec3| along_a.dot(point - a);
     let across = 1.0 - cosine * cosine;
     let crossing = if across > 1e-12 { (foot(b) - cosine * along_b.dot(b - a)) / across } else { 0.0 };

@@ -44,7 +44,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// Signed distance of a point, metres.
+    /// Signed distance of a point from the plane, metres.
     #[must_use]
     pub fn distance(&self, point: DVec3) -> f64 {
         self.normal.dot(point - self.point)
@@ -52,7 +52,7 @@ impl Plane {
 }
 
 impl Polygon {
-    /// A polygon with the given corners.
+    /// Creates a polygon with the given corners.
     ///
     /// # Errors
     /// Returns an error if the corners form no convex, planar polygon.
@@ -89,7 +89,7 @@ impl Polygon {
         Self { normal: twice.normalize_or_zero(), area: 0.5 * twice.length(), corners }
     }
 
-    /// True if every turn is to the left and the turns add up to one revolution.
+    /// Returns true if every turn is to the left and the turns add up to one revolution.
     fn is_convex(&self) -> bool {
         let edges: Vec<DVec3> = self.edges().map(|(a, b)| (b - a).normalize()).collect();
         let mut whole = 0.0;
@@ -121,7 +121,7 @@ impl Polygon {
         self.normal
     }
 
-    /// Square metres.
+    /// Area, square metres.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.area
@@ -146,14 +146,14 @@ impl Polygon {
         Plane { normal: self.normal, point: self.corners[0] }
     }
 
-    /// The polygon translated by `-centre`, then scaled.
+    /// Returns the polygon translated by `-centre`, then scaled.
     #[must_use]
     pub fn rescaled(&self, centre: DVec3, scale: f64) -> Self {
         let corners = self.corners.iter().map(|&corner| (corner - centre) * scale).collect();
         Self { corners, normal: self.normal, area: self.area * scale * scale }
     }
 
-    /// The part within a half space; `None` if it has no area.
+    /// Returns the part within a half space, or `None` if it has no area.
     #[must_use]
     pub fn within(&self, plane: &Plane) -> Option<Self> {
         let rounding = 1e-12 * self.size();

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-/// Most halvings of an interval.
+/// Largest number of times that an interval is halved.
 const MAX_DEPTH: u32 = 48;
 
 /// Positive nodes of the 15-point Kronrod rule, the largest first; every second one is a node of the 7-point Gauss rule.
@@ -58,7 +58,7 @@ fn halve_until_exact(f: &dyn Fn(f64) -> f64, low: f64, high: f64, tolerance: f64
     halve_until_exact(f, low, middle, share, depth + 1) + halve_until_exact(f, middle, high, share, depth + 1)
 }
 
-/// Most quarterings of a triangle.
+/// Largest number of times that a triangle is quartered.
 const MAX_QUARTERINGS: u32 = 9;
 
 /// Integral of `f` over a triangle, and its error bound.
@@ -120,7 +120,7 @@ mod tests {
         // Integral of x^3 y^2 = 3! 2! / 7!.
         let found = radon(&|p| p.x.powi(3) * p.y.powi(2), corners);
         assert!((found - 12.0 / 5040.0).abs() < 1e-15, "{found}");
-        // A kink needs more.
+        // A kink needs more subdivisions.
         let (kinked, error) = integrate_triangle(&|p| (p.x - 0.3).max(0.0), corners, 1e-8);
         assert!((kinked - 0.7f64.powi(3) / 6.0).abs() < 1e-7 && error < 1e-6, "{kinked} {error}");
     }

@@ -14,14 +14,14 @@ use crate::patch::{MeshSettings, PatchMesh};
 use crate::scene::{Instance, Material, Scene, Triangle, Vertex};
 use crate::trace::Tracer;
 
-/// Points of the smaller polygon from which rays start, and rays a point.
+/// Number of points of the smaller polygon from which rays start, and of rays a point.
 const HEMISPHERES: (u32, u32) = (8192, 512);
 
-/// Points of the smaller polygon at which hemicubes stand.
+/// Number of points of the smaller polygon at which hemicubes stand.
 const NUM_HEMICUBES: u32 = 1024;
 
 impl PolygonPair {
-    /// By rays with the density of the cosine, from points of the smaller polygon.
+    /// Estimates the form factor with cosine-distributed rays from points of the smaller polygon.
     ///
     /// # Errors
     /// Rays do not fail; the error is that of [`FormFactorSource::rows`].
@@ -35,7 +35,7 @@ impl PolygonPair {
         Ok(scene.reciprocal(Estimate { factor, error }))
     }
 
-    /// By hemicubes `size_px` pixels wide at points of the smaller polygon.
+    /// Estimates the form factor with hemicubes `size_px` pixels wide at points of the smaller polygon.
     ///
     /// # Errors
     /// Returns an error if the device fails.
@@ -46,7 +46,7 @@ impl PolygonPair {
         let count = shares.len() as f64;
         let factor = shares.iter().sum::<f64>() / count;
         let variance = shares.iter().map(|value| (value - factor).powi(2)).sum::<f64>() / (count - 1.0);
-        // An upper bound: evenly spread points do better than independent ones.
+        // This is an upper bound, because evenly spread points have smaller errors than independent ones.
         Ok(scene.reciprocal(Estimate { factor, error: (variance / count).sqrt() }))
     }
 }
@@ -57,7 +57,7 @@ struct PairScene {
     scene: Scene,
     mesh: PatchMesh,
     viewer: Polygon,
-    /// Triangles of the larger polygon, which come first.
+    /// Number of triangles of the larger polygon, which come first.
     num_seen: usize,
     /// Form factor of the pair over that from the viewer: by reciprocity, the ratio of the areas if the two are swapped.
     ratio: f64,
@@ -115,7 +115,7 @@ impl PairScene {
         viewpoints
     }
 
-    /// The estimate from A to B, by reciprocity if the viewer is B.
+    /// Returns the estimate from A to B, by reciprocity if the viewer is B.
     fn reciprocal(&self, estimate: Estimate) -> Estimate {
         Estimate { factor: estimate.factor * self.ratio, error: estimate.error * self.ratio }
     }

@@ -17,7 +17,7 @@ pub enum RowCacheError {
     /// The file cannot be opened, read or created.
     #[error("{}: cannot be used as a row cache: {}", .0.display(), .1)]
     Io(PathBuf, io::Error),
-    /// The file is something else and is left alone.
+    /// The file is something else and is not changed.
     #[error("{}: is not a row cache of Hemicube; name another file, or delete this one", .0.display())]
     NotOurs(PathBuf),
     /// Another process holds the lock of the file.
@@ -38,7 +38,7 @@ struct Rows {
     /// Offset of the record of each row, by fingerprint.
     offsets: HashMap<u128, u64>,
     end: u64,
-    /// The file does not grow beyond this many bytes; 0 after a write failed.
+    /// Largest size of the file, bytes; 0 after a write failed.
     limit: u64,
     num_reused: usize,
 }
@@ -74,7 +74,7 @@ impl RowCache {
         self.rows().offsets.len()
     }
 
-    /// True if the file holds no row.
+    /// Returns true if the file holds no row.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
@@ -90,7 +90,7 @@ impl RowCache {
         self.rows.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The row of a fingerprint; `None` if the file does not hold it or it cannot be read.
+    /// Returns the row of a fingerprint, or `None` if the file does not hold it or it cannot be read.
     pub(super) fn read(&self, name: u128) -> Option<Row> {
         let mut rows = self.rows();
         let offset = *rows.offsets.get(&name)?;
@@ -108,7 +108,7 @@ impl RowCache {
         }
     }
 
-    /// Appends rows until the limit is reached. A failed write ends the caching and not the bake.
+    /// Appends rows until the limit is reached. After a failed write no more rows are appended, but the bake continues.
     pub(super) fn append(&self, found: &[(u128, Row)]) {
         let mut rows = self.rows();
         let mut bytes = Vec::new();
@@ -136,7 +136,7 @@ impl RowCache {
     }
 }
 
-/// The offset of each record, and the end of the last whole one; `None` if the file is no row cache.
+/// Returns the offset of each record, and the end of the last whole one, or `None` if the file is no row cache.
 fn record_offsets(file: &mut File, length: u64) -> io::Result<Option<(HashMap<u128, u64>, u64)>> {
     file.rewind()?;
     let mut reader = BufReader::new(&*file);

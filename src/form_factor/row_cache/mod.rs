@@ -1,5 +1,5 @@
-//! Rows of form factors kept in a file: rows computed once are read back after a bake was stopped, or when lamps or colours
-//! have changed.
+//! Rows of form factors stored in a file. They are read back if a bake was stopped, or if lamps or colours have
+//! changed.
 //!
 //! A row is identified by a fingerprint of its inputs: the elements, the method and the viewpoint. Light and reflectance are
 //! not among them. The file is a header followed by records in the order of writing, so a stopped run leaves whole records

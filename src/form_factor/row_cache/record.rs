@@ -15,7 +15,7 @@ use crate::form_factor::{Entry, Row};
 /// First bytes of a file; the digit is the version of the format.
 pub(super) const HEADER: &[u8; 16] = b"hemicube rows 2\n";
 
-/// Bytes of a record before its entries.
+/// Size of a record before its entries, bytes.
 const HEAD_BYTES: usize = 28;
 const ENTRY_BYTES: usize = 8;
 
@@ -30,7 +30,7 @@ pub(super) struct RecordHead {
 }
 
 impl RecordHead {
-    /// Reads the next head; `None` if the `num_left` bytes that are left hold no whole record.
+    /// Reads the next head. Returns `None` if the remaining `num_left` bytes hold no whole record.
     pub(super) fn read(from: &mut impl Read, num_left: u64) -> io::Result<Option<Self>> {
         if num_left < HEAD_BYTES as u64 {
             return Ok(None);
@@ -48,12 +48,12 @@ impl RecordHead {
         Ok((head.num_bytes() <= num_left).then_some(head))
     }
 
-    /// Bytes of the entries and the backs.
+    /// Size of the entries and the backs, bytes.
     pub(super) fn num_entry_bytes(&self) -> u64 {
         (u64::from(self.num_entries) + u64::from(self.num_backs)) * ENTRY_BYTES as u64
     }
 
-    /// Bytes of the whole record.
+    /// Size of the whole record, bytes.
     pub(super) fn num_bytes(&self) -> u64 {
         HEAD_BYTES as u64 + self.num_entry_bytes()
     }

@@ -9,10 +9,10 @@ use crate::base::fingerprint::Fingerprint;
 use crate::form_factor::{Entry, FormFactorError, FormFactorSource, Row, Viewpoint};
 use crate::patch::PatchMesh;
 
-/// Rows read at a time.
+/// Number of rows read at a time.
 const ROWS_A_BATCH: usize = 64;
 
-/// A source whose rows are kept in a [`RowCache`].
+/// A source whose rows are stored in a [`RowCache`].
 pub struct CachedFormFactors<'a> {
     source: Box<dyn FormFactorSource + 'a>,
     cache: &'a RowCache,
@@ -22,8 +22,8 @@ pub struct CachedFormFactors<'a> {
 }
 
 impl<'a> CachedFormFactors<'a> {
-    /// Keeps the rows that `source` computes over the elements of `mesh`; `label` names the method and its settings, since
-    /// other settings give other rows.
+    /// Stores the rows that `source` computes over the elements of `mesh`. `label` identifies the method and its
+    /// settings, because other settings give other rows.
     #[must_use]
     pub fn new(source: Box<dyn FormFactorSource + 'a>, label: &str, mesh: &PatchMesh, cache: &'a RowCache) -> Self {
         let mut base = Fingerprint::default();
@@ -47,7 +47,7 @@ impl<'a> CachedFormFactors<'a> {
         name.value()
     }
 
-    /// A row of the file; `None` if it is missing or refers to elements that do not exist.
+    /// Reads a row of the file. Returns `None` if it is missing or refers to elements that do not exist.
     fn read(&self, name: u128) -> Option<Row> {
         let is_known = |entry: &Entry| entry.element.index() < self.num_elements;
         self.cache.read(name).filter(|row| row.entries.iter().chain(&row.backs).all(is_known))

@@ -25,7 +25,7 @@ use crate::trace::Tracer;
 /// Viewpoints between two progress reports.
 const BATCH: usize = 64;
 
-/// Fewest and most rays that test whether a viewpoint lies in a penumbra.
+/// Smallest and largest number of rays that test whether a viewpoint lies in a penumbra.
 const PILOT_RAYS: [u32; 2] = [16, 64];
 
 /// Share of the rays in penumbrae that the test uses.
@@ -46,25 +46,27 @@ pub struct DirectLight<'a> {
 }
 
 impl<'a> DirectLight<'a> {
-    /// Direct light of all lights of the scene, with at most `num_penumbra_rays` rays per viewpoint and emitter in penumbrae.
+    /// Returns the direct light of all lights of the scene, with at most `num_penumbra_rays` rays per viewpoint and
+    /// emitter in penumbrae.
     #[must_use]
     pub fn new(scene: &'a Scene, mesh: &PatchMesh, tracer: &'a Tracer<'a>, num_penumbra_rays: u32) -> Self {
         Self { scene, tracer, emitters: Arc::new(Emitters::new(scene, mesh)), num_penumbra_rays }
     }
 
-    /// The same lights with another number of rays in penumbrae.
+    /// Returns the same lights with another number of rays in penumbrae.
     #[must_use]
     pub fn with_rays(&self, num_penumbra_rays: u32) -> Self {
         Self { emitters: Arc::clone(&self.emitters), num_penumbra_rays, ..*self }
     }
 
-    /// The rays that test visibility.
+    /// Returns the tracer of the visibility rays.
     #[must_use]
     pub fn tracer(&self) -> &Tracer<'a> {
         self.tracer
     }
 
-    /// Direct irradiance `[viewpoint][group]`, lux per channel; zero at viewpoints not reached before a cancel.
+    /// Computes direct irradiance `[viewpoint][group]`, lux per channel; zero at viewpoints not reached before a
+    /// cancel.
     pub fn irradiance(&self, viewpoints: &[Viewpoint], progress: &dyn Progress) -> Field {
         let num_groups = self.scene.light_groups.len();
         let mut field = Field::zero(viewpoints.len(), num_groups);
@@ -101,7 +103,7 @@ impl<'a> DirectLight<'a> {
         }
         self.emitters.find_candidates(viewpoint.position, viewpoint.normal, candidates);
         let receiver = Receiver { lights: self, viewpoint, candidates };
-        // A few rays to each emitter show which are wholly visible or hidden, and how bright the viewpoint is.
+        // A few rays to each emitter show whether it is wholly visible or hidden, and how bright the viewpoint is.
         let num_pilot_rays = (self.num_penumbra_rays / PILOT_SHARE).clamp(PILOT_RAYS[0], PILOT_RAYS[1]);
         visibilities.clear();
         visibilities.extend(receiver.candidates.list.iter().map(|candidate| {
@@ -120,7 +122,7 @@ impl<'a> DirectLight<'a> {
         }
     }
 
-    /// Irradiance from a punctual light.
+    /// Returns the irradiance from a punctual light.
     ///
     /// Equation: E = I cos theta / r^2 (directional light: E cos theta), times the transmittance along the ray.
     fn punctual_irradiance(&self, light: &Light, viewpoint: &Viewpoint) -> Vec3 {
@@ -177,7 +179,7 @@ impl Receiver<'_> {
     }
 }
 
-/// The visible share of one emitter so far: the weight of the rays that pass, and of all.
+/// The visible share of one emitter so far: the summed weight of the rays that pass, and that of all rays.
 #[derive(Clone, Copy, Default)]
 struct Visibility {
     passing: f32,
@@ -191,7 +193,7 @@ impl Visibility {
         if self.total > 0.0 { self.passing / self.total } else { 0.0 }
     }
 
-    /// True if all rays agree.
+    /// Returns true if all rays agree.
     fn is_unanimous(&self) -> bool {
         self.passing <= 1e-4 * self.total || self.passing >= (1.0 - 1e-4) * self.total
     }

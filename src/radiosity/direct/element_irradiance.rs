@@ -1,8 +1,8 @@
-//! Direct light on elements: the first power that the solvers distribute.
+//! Direct light on elements. Its reflection is the first power that the solvers distribute.
 //!
-//! It is sampled at points inside the elements and not at their vertices, which lie in creases and have smooth normals.
-//! Points inside a solid are left out of the mean: an element of a floor that extends under a wall is as bright as its open
-//! part.
+//! Direct light is sampled at points inside the elements. The vertices are not suitable, because they lie in creases
+//! and have smooth normals. Points inside a solid do not count in the mean, so an element of a floor that extends under
+//! a wall is as bright as its open part.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -16,10 +16,10 @@ use crate::radiosity::field::Field;
 use crate::radiosity::viewpoints::Viewpoints;
 use crate::trace::Tracer;
 
-/// Rays that test whether a dark point lies inside a solid.
+/// Number of rays that test whether a dark point lies inside a solid.
 const NUM_PROBES: u32 = 8;
 
-/// Direct irradiance `[e][g]`, lux per channel: the mean over `num_points` points of each element.
+/// Computes direct irradiance `[e][g]`, lux per channel: the mean over `num_points` points of each element.
 #[must_use]
 pub fn direct_on_elements(
     mesh: &PatchMesh,
@@ -39,7 +39,7 @@ pub fn direct_on_elements(
         let places = e * num_points..(e + 1) * num_points;
         let is_lit = |place: usize| at_points.total(place) != Vec3::ZERO;
         let num_lit = places.clone().filter(|&place| is_lit(place)).count();
-        // If all are dark, it does not matter which of them count.
+        // If all points are dark, the mean is 0 however many of them are open.
         let num_open = match num_lit {
             0 => num_points,
             _ => {
@@ -56,7 +56,7 @@ pub fn direct_on_elements(
     mean
 }
 
-/// True if the viewpoint lies inside a solid: almost all of its rays meet back faces.
+/// Returns true if the viewpoint lies inside a solid: almost all of its rays hit back faces.
 #[must_use]
 pub fn is_inside_solid(tracer: &Tracer<'_>, viewpoint: &Viewpoint) -> bool {
     let is_back = |i: &u32| {

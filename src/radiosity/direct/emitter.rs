@@ -13,11 +13,11 @@ use crate::form_factor::point_to_polygon;
 use crate::patch::PatchMesh;
 use crate::scene::{Scene, area_of, normal_of};
 
-/// Cell size in which triangles of one surface are one emitter, as a share of the scene's extent: lamps of one mesh that hang
-/// apart have separate visibility.
+/// Cell size, as a share of the scene's extent, within which triangles of one surface form one emitter. Lamps of one
+/// mesh that hang apart thus have separate visibility.
 const CELL_SHARE: f32 = 0.1;
 
-/// Emitters below this share of a viewpoint's light are pooled and sampled together, so that a thousand lamps do not take a
+/// Emitters below this share of a viewpoint's light are pooled and sampled together, so a thousand lamps do not need a
 /// thousand times the rays of one.
 const SMALL_SHARE: f32 = 1.0 / 64.0;
 
@@ -43,7 +43,7 @@ struct EmitterTriangle {
     area: f32,
 }
 
-/// The emitters that one viewpoint samples; reused from viewpoint to viewpoint to keep its memory.
+/// The emitters that one viewpoint samples. Viewpoints use it one after the other, so that its memory is reused.
 #[derive(Default)]
 pub(super) struct Candidates {
     pub list: Vec<Candidate>,
@@ -57,7 +57,7 @@ pub(super) struct Candidates {
 /// An emitter, or the pool of the small ones of a light group.
 pub(super) struct Candidate {
     pub group: GroupId,
-    /// Irradiance if nothing stood between, lux per channel.
+    /// Irradiance without occlusion, lux per channel.
     pub unoccluded: Vec3,
     triangles: Range<usize>,
     is_pool: bool,
@@ -135,7 +135,7 @@ impl Emitters {
             }
         }
         let total: f32 = found.facing.iter().map(|(_, sum, _)| luminance(*sum)).sum();
-        // Emitters are sorted by group, so the small ones of a group follow each other.
+        // Emitters are sorted by group, so the small ones of a group are adjacent.
         for pooled in [false, true] {
             for at in 0..found.facing.len() {
                 let (emitter, sum, contributions) = found.facing[at].clone();
@@ -146,7 +146,7 @@ impl Emitters {
         }
     }
 
-    /// The `index`-th point of a sequence that is spread evenly by contribution over a candidate.
+    /// Returns the `index`-th point of a sequence that is distributed evenly over a candidate by contribution.
     pub(super) fn sample(
         &self,
         candidates: &Candidates,
@@ -206,15 +206,15 @@ impl Candidates {
 }
 
 impl EmitterTriangle {
-    /// `None` if the triangle does not emit.
+    /// Returns `None` if the triangle does not emit.
     fn new(corners: [Vec3; 3], exitance: Vec3) -> Option<Self> {
         let is_emissive = exitance.max_element() > 0.0;
         is_emissive.then(|| Self { corners, normal: normal_of(corners), exitance, area: area_of(corners) })
     }
 
-    /// Irradiance at a point if nothing stood between.
+    /// Irradiance at a point without occlusion.
     ///
-    /// Equation: E = M F(point, triangle) on the side that it faces, M its exitance.
+    /// Equation: E = M F(point, triangle) on the side that the triangle faces, where M is its exitance.
     fn unoccluded(&self, point: Vec3, normal: Vec3) -> Vec3 {
         if self.normal.dot(point - self.corners[0]) <= 0.0 {
             return Vec3::ZERO;

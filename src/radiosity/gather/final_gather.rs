@@ -1,7 +1,7 @@
 //! The final gather: hemicubes at a sparse set of viewpoints, interpolation between them.
 //!
-//! E(x) = sum over elements e of F(x, e) B_e is evaluated at *records*, the viewpoints that the
-//! [irradiance cache](super::irradiance_cache) finds too far from all others. The set grows densest where light changes fast.
+//! E(x) = sum over elements e of F(x, e) B_e is evaluated at *records*, the viewpoints that the [irradiance
+//! cache](super::irradiance_cache) finds too far from all others. Records are densest where light changes fast.
 //!
 //! Source: Wallace, Elmquist, Haines 1989 (radiosity at vertices); Lischinski, Tampieri, Greenberg 1993 (final gather of
 //! a radiosity solution).
@@ -20,8 +20,8 @@ use crate::form_factor::{FormFactorError, FormFactorSource, MAX_BACK_SHARE, Row,
 use crate::patch::PatchMesh;
 use crate::radiosity::field::Field;
 
-/// Viewpoints gathered before the cache and the noise are consulted again: few at first, so that their results serve the
-/// next, then twice as many as before, at most `ROUND`.
+/// Largest number of viewpoints gathered before the cache and the noise are evaluated again. The first rounds are
+/// small, because later ones use their results; each is twice as large as the one before.
 const ROUND: usize = 512;
 const FIRST_ROUND: usize = 32;
 
@@ -59,7 +59,7 @@ pub struct FinalGather<'a> {
     near_field: NearField<'a>,
     noise: SamplingNoise,
     records: Vec<Record>,
-    /// Irradiance `[record][group]` as gathered, and corrected for the near field.
+    /// Irradiance `[record][group]` without and with the near-field correction.
     gathered: Vec<Vec3>,
     irradiance: Vec<Vec3>,
     /// Near elements of all records, record by record.
@@ -98,7 +98,7 @@ impl<'a> FinalGather<'a> {
         }
     }
 
-    /// Mean share of back faces in view, over all viewpoints with hemicubes.
+    /// Returns the mean share of back faces in view, over all viewpoints with hemicubes.
     #[must_use]
     pub fn mean_back_share(&self) -> f32 {
         self.back_share / self.num_viewpoints.max(1) as f32
@@ -178,8 +178,8 @@ impl<'a> FinalGather<'a> {
         Ok(())
     }
 
-    /// Gathers the near field again, now that the light of vertices is known: `direct` and `light` are that of the light
-    /// vertices, whose viewpoints are `viewpoints`.
+    /// Applies the near-field correction to `light`, now that the light of vertices is known. `direct` and `light` are
+    /// the light of the light vertices, whose viewpoints are `viewpoints`.
     pub fn correct_near_field(&mut self, viewpoints: &[Viewpoint], direct: &Field, light: &mut GatheredLight) {
         for _ in 0..NEAR_FIELD_ROUNDS {
             self.near_field.set_vertex_light(direct, &light.indirect, &light.is_valid);
@@ -232,7 +232,8 @@ impl<'a> FinalGather<'a> {
         }
     }
 
-    /// Sets the light of every valid viewpoint to the value of a plane fitted through the records near it, its own included.
+    /// Fits a plane through the records near each valid viewpoint, its own included, and sets the light of the
+    /// viewpoint to the value of the plane.
     fn interpolate(&self, viewpoints: &[Viewpoint], light: &mut GatheredLight) {
         let num_groups = self.radiosity.num_groups();
         let GatheredLight { indirect, is_valid, is_known } = light;
@@ -254,20 +255,20 @@ impl<'a> FinalGather<'a> {
     }
 }
 
-/// All viewpoints in an order that covers the scene evenly from the start.
+/// Returns all viewpoints in an order that covers the scene evenly from the start.
 fn scattered_order(num_viewpoints: usize) -> Vec<u32> {
     let mut order: Vec<u32> = (0..num_viewpoints as u32).collect();
     order.sort_by_key(|&viewpoint| hash(viewpoint));
     order
 }
 
-/// The viewpoint with its `i`-th seed: the samples fall elsewhere for each.
+/// Returns the viewpoint with its `i`-th seed. Each seed places the samples differently.
 fn reseeded(viewpoint: &Viewpoint, i: u32) -> Viewpoint {
     Viewpoint { seed: viewpoint.seed ^ i.wrapping_mul(0x85eb_ca6b), ..*viewpoint }
 }
 
 impl GatheredLight {
-    /// Light of which nothing is known yet.
+    /// Returns light of which nothing is known yet.
     #[must_use]
     pub fn unknown(num_viewpoints: usize, num_groups: usize) -> Self {
         Self {

@@ -20,7 +20,8 @@ use crate::form_factor::Viewpoint;
 /// Ratio of the error up to which records are blended to the tolerance.
 const BLEND: f32 = 2.0;
 
-/// Smallest radius of a record, as a share of the largest: corners need no finer detail than the mesh can show.
+/// Smallest radius of a record, as a share of the largest: finer detail in corners than the mesh can show is not
+/// needed.
 const SMALLEST: f32 = 1.0 / 64.0;
 
 /// How far in front of a record, and behind it, an interpolated point may lie, as a share of the record's radius.
@@ -34,7 +35,7 @@ struct Record {
     normal: Vec3,
     /// Distance at which the error reaches the tolerance, metres.
     radius: f32,
-    /// The caller's number of the record.
+    /// Number that the caller gave the record.
     index: u32,
 }
 
@@ -78,7 +79,7 @@ impl IrradianceCache {
         }
     }
 
-    /// True if a record is close enough for `viewpoint` to need none of its own.
+    /// Returns true if a record is so close to `viewpoint` that it needs none of its own.
     pub fn covers(&self, viewpoint: &Viewpoint) -> bool {
         self.nearby(viewpoint).any(|record| self.error(record, viewpoint).is_some_and(|error| error < self.tolerance))
     }
@@ -98,20 +99,21 @@ impl IrradianceCache {
         weights.iter_mut().for_each(|(_, weight)| *weight /= sum);
     }
 
-    /// Records whose neighbourhood may contain the viewpoint.
+    /// Returns the records whose neighbourhood may contain the viewpoint.
     fn nearby<'c>(&'c self, viewpoint: &'c Viewpoint) -> impl Iterator<Item = &'c Record> {
         let in_cell =
             |level: usize| self.levels[level].get(&self.cell(level, viewpoint.position)).into_iter().flatten();
         (0..self.levels.len()).flat_map(in_cell)
     }
 
-    /// The cell of a position; cells of a level are at least as wide as the neighbourhoods in it.
+    /// Returns the cell of a position. Cells of a level are at least as wide as the neighbourhoods in it.
     fn cell(&self, level: usize, position: Vec3) -> IVec3 {
         let width = 2.0 * BLEND * self.max_radius / (1u32 << level) as f32;
         (position / width).floor().as_ivec3()
     }
 
-    /// The error of a record at a viewpoint; `None` if it is too large to blend, or one may see what the other does not.
+    /// Returns the error of a record at a viewpoint, or `None` if it is too large to blend, or if one of the two may
+    /// see surfaces hidden from the other.
     fn error(&self, record: &Record, viewpoint: &Viewpoint) -> Option<f32> {
         let offset = viewpoint.position - record.position;
         let error = offset.length() * self.tolerance / record.radius

@@ -1,8 +1,8 @@
 //! Final gather: indirect irradiance at the vertices, from hemicubes or hemispheres over the solved elements.
 //!
-//! [`FinalGather`] places them at a sparse set of vertices, which the irradiance cache chooses; the
-//! vertices between are interpolated. The sampling noise around a vertex decides how many it needs, and the near field is
-//! corrected: the light of elements close by.
+//! [`FinalGather`] places them at a sparse set of vertices, which the irradiance cache chooses. Other vertices are
+//! interpolated. The sampling noise around a vertex decides how many hemicubes it needs. The near-field correction
+//! adjusts the light of elements close by.
 
 mod final_gather;
 mod irradiance_cache;

@@ -36,7 +36,7 @@ pub(super) struct NearField<'a> {
 pub(super) type NearElement = (ElementId, f32);
 
 impl<'a> NearField<'a> {
-    /// Without light at vertices yet: nothing is corrected.
+    /// Creates a correction without light at vertices yet, which changes nothing.
     pub fn new(mesh: &'a PatchMesh, radiosity: &'a Field, reach: f32) -> Self {
         Self { mesh, radiosity, reach, light: None }
     }

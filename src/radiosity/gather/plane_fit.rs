@@ -8,8 +8,9 @@ use crate::form_factor::Viewpoint;
 /// Stiffness of the plane, as a share of the scatter of the records.
 const STIFFNESS: f32 = 0.1;
 
-/// Turns the weights of a mean over records into those of the plane through them, evaluated at the viewpoint: records on one
-/// side only then extrapolate instead of pulling the value to theirs. `position_of` is the position of a record.
+/// Turns the weights of a mean over records into those of the plane through them, evaluated at the viewpoint. If all
+/// records lie on one side of the viewpoint, the plane extrapolates, whereas the mean would be biased towards them.
+/// `position_of` is the position of a record.
 ///
 /// Equation: w_i <- w_i (1 - d_i . S^-1 m), normalised, with d_i the tangential offset of record i, m = sum of w_i d_i and
 /// S = sum of w_i d_i d_i^T, stiffened on its diagonal. The weights stay unchanged if S is singular.
@@ -27,7 +28,7 @@ pub(super) fn fit_plane(viewpoint: &Viewpoint, weights: &mut [(u32, f32)], posit
         first += weight * offset;
         second += weight * Mat2::from_cols(offset * offset.x, offset * offset.y);
     }
-    // A little stiffness limits the slope from few records, or from records in a row.
+    // A little stiffness limits the gradient from few records, or from records in a row.
     let stiffness = STIFFNESS * (second.x_axis.x + second.y_axis.y);
     let stiff = second + Mat2::from_diagonal(Vec2::splat(stiffness));
     if stiff.determinant() <= f32::MIN_POSITIVE {

@@ -4,13 +4,13 @@ use glam::Vec3;
 
 use super::near_field::NearElement;
 
-/// What the final gather needs of one view.
+/// The data of one view that the final gather uses.
 pub(super) struct SampledView {
     /// Irradiance `[g]`.
     pub irradiance: Vec<Vec3>,
-    /// Elements close by.
+    /// Elements near the viewpoint.
     pub near: Vec<NearElement>,
-    /// Share of back faces.
+    /// Share of back faces in view.
     pub back: f32,
     /// Harmonic mean distance of the surfaces in view, metres.
     pub distance: f32,
@@ -19,7 +19,7 @@ pub(super) struct SampledView {
 }
 
 impl SampledView {
-    /// The mean of several samplings of one view.
+    /// Returns the mean of several samplings of one view.
     pub fn mean(mut views: Vec<Self>) -> Self {
         let share = (views.len() as f32).recip();
         let mean = |value: fn(&Self) -> f32| share * views.iter().map(value).sum::<f32>();

@@ -1,10 +1,10 @@
 //! The sampling noise of gathered light, and how many hemicubes one viewpoint needs.
 //!
-//! If the light of a viewpoint comes from few small bright surfaces, samples that hit or miss them by chance leave noise that
-//! is visible on an even wall. There, several hemicubes with different seeds are averaged.
+//! If the light of a viewpoint comes from few small bright surfaces, samples hit or miss them by chance. The resulting
+//! noise is visible even on a plain wall. There, several hemicubes with different seeds are averaged.
 //!
-//! The number for a viewpoint follows from its neighbours and not from its own samples: a hemicube that misses a bright
-//! surface estimates a variance of zero, and stopping because of that would lose light (bias of adaptive sampling: Kirk,
+//! The number for a viewpoint follows from its neighbours and not from its own samples. A hemicube that misses a bright
+//! surface estimates a variance of zero, and to stop because of that would lose light (bias of adaptive sampling: Kirk,
 //! Arvo 1991).
 
 use glam::IVec3;
@@ -14,10 +14,10 @@ use crate::base::colour::luminance;
 use crate::form_factor::{Row, Viewpoint};
 use crate::radiosity::field::Field;
 
-/// Most hemicubes per viewpoint.
+/// Largest number of hemicubes per viewpoint.
 const MAX_HEMICUBES: u32 = 16;
 
-/// Least irradiance that noise is compared with, as a share of the mean: noise in the dark is invisible.
+/// Noise is relative to at least this share of the mean irradiance, because noise in the dark is invisible.
 const FLOOR: f64 = 0.1;
 
 /// Neighbouring samples count as one object if their radiosities differ by less than this factor.
@@ -34,7 +34,7 @@ pub(super) struct SamplingNoise {
     /// Width of a cell, metres.
     width: f32,
     cells: FxHashMap<Cell, Sums>,
-    /// All cells together.
+    /// Sums over all cells.
     all: Sums,
 }
 
@@ -59,12 +59,12 @@ impl Sums {
 }
 
 impl SamplingNoise {
-    /// Without hemicubes yet; viewpoints within a cell of `width` metres count as equally noisy.
+    /// Creates a record of noise without hemicubes. Viewpoints within a cell of `width` metres count as equally noisy.
     pub fn new(tolerance: f32, width: f32) -> Self {
         Self { tolerance, width, cells: FxHashMap::default(), all: Sums::default() }
     }
 
-    /// Number of hemicubes whose mean has the accepted noise at a viewpoint; 1 if its cell has none yet.
+    /// Returns the number of hemicubes whose mean has the accepted noise at a viewpoint, or 1 if its cell has none yet.
     pub fn num_hemicubes(&self, viewpoint: &Viewpoint) -> u32 {
         let Some(sums) = self.cells.get(&self.cell(viewpoint)) else { return 1 };
         let irradiance = sums.mean_irradiance().max(FLOOR * self.all.mean_irradiance());
@@ -85,7 +85,8 @@ impl SamplingNoise {
     }
 }
 
-/// The luminance of the irradiance from `radiosity` `[e][g]` through a row of `num_samples` samples, and its variance.
+/// Returns the luminance of the irradiance from `radiosity` `[e][g]` through a row of `num_samples` samples, and its
+/// variance.
 ///
 /// Of n evenly spread samples on one object, only those near its outline hit or miss it by chance: about sqrt(n). Each is
 /// worth the contrast of the object to the mean, so the object adds contrast^2 sqrt(F / N) / N to the variance, where

@@ -15,13 +15,13 @@ use crate::base::ids::PatchId;
 use crate::patch::PatchMesh;
 use crate::radiosity::field::Field;
 
-/// Most bytes of a matrix.
+/// Largest size of a matrix, bytes.
 const MAX_BYTES: usize = 1 << 30;
 
 /// Largest relative change of a sweep at which the system counts as solved.
 const TOLERANCE: f32 = 1e-6;
 
-/// Most sweeps; as many as passes of the slower Jacobi iteration.
+/// Largest number of sweeps, equal to the limit of the slower Jacobi iteration.
 const MAX_SWEEPS: usize = 1000;
 
 /// The matrix is too large.
@@ -33,7 +33,7 @@ const MAX_SWEEPS: usize = 1000;
 pub struct MatrixTooLarge {
     /// Number of rows and of columns.
     pub num_patches: usize,
-    /// Its size, GiB.
+    /// Size of the matrix, GiB.
     pub gib: f64,
 }
 
@@ -82,7 +82,7 @@ pub fn solve(mesh: &PatchMesh, direct: &Field, rows: &RowStore) -> (Field, usize
     (solution, MAX_SWEEPS)
 }
 
-/// One row of the matrix `[p]`, and its right side `[g]`.
+/// Returns one row of the matrix `[p]`, and its right side `[g]`.
 fn equation(mesh: &PatchMesh, direct: &Field, rows: &RowStore, patch: PatchId) -> (Vec<Vec3>, Vec<Vec3>) {
     let mut matrix = vec![Vec3::ZERO; mesh.patches.len()];
     let mut right = vec![Vec3::ZERO; direct.num_groups()];

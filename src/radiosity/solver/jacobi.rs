@@ -2,10 +2,10 @@
 //!
 //! I_p <- sum over elements e of F_pe rho_e (D_e + I of e's patch)
 //!
-//! Started from I = 0, the k-th pass adds the light of the k-th reflection: the Neumann series of the radiosity equation,
-//! and the classic series of pictures. Started from the result of progressive refinement, it removes the proximity error of
-//! shooting: a shooter is sampled at one or a few points, so an element close to it receives too much or too little,
-//! whereas a row of the receiver is exact in its neighbourhood and sums to 1 in a closed room.
+//! Started from I = 0, the k-th pass adds the light of the k-th reflection. This is the Neumann series of the radiosity
+//! equation. Started from the result of progressive refinement, it removes the proximity error of shooting. A shooter
+//! is sampled at one or a few points, so an element close to it receives too much or too little. A row of the receiver
+//! is exact in its neighbourhood and sums to 1 in a closed room.
 //!
 //! Source: Goral, Torrance, Greenberg, Battaile 1984 (the system); Baum, Rushmeier, Winget 1989 (the proximity assumption).
 
@@ -20,7 +20,7 @@ use crate::radiosity::field::Field;
 /// Largest relative change of a patch's irradiance in a pass at which the system counts as solved.
 const TOLERANCE: f32 = 1e-4;
 
-/// Most passes: the slowest room, of reflectance 0.99, loses 1 % of its error per pass.
+/// Largest number of passes: the slowest room, of reflectance 0.99, reduces its error by 1 % per pass.
 const MAX_PASSES: usize = 1000;
 
 /// One pass: replaces indirect irradiance `[p][g]` by what the patches gather from it and from direct irradiance `[e][g]`.

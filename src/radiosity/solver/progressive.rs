@@ -34,9 +34,9 @@ pub struct ProgressiveSettings {
     pub threshold: f32,
     /// Shooting ends after this many shots per patch on average.
     pub max_shots_a_patch: usize,
-    /// Viewpoints per patch.
+    /// Number of viewpoints per patch.
     pub points_a_patch: usize,
-    /// Patches per step: their rows are computed together.
+    /// Number of patches per step. Their rows are computed together.
     pub patches_a_batch: usize,
     /// Memory for kept rows, bytes.
     pub row_bytes: usize,
@@ -94,13 +94,13 @@ impl<'a> Progressive<'a> {
         (self.solution, self.rows)
     }
 
-    /// Share of the first unshot power that is still unshot.
+    /// Returns the share of the first unshot power that is still unshot.
     #[must_use]
     pub fn unshot_share(&self) -> f64 {
         if self.first_unshot > 0.0 { self.unshot_power() / self.first_unshot } else { 0.0 }
     }
 
-    /// True if the unshot share is below the threshold, or the number of shots has reached its limit.
+    /// Returns true if the unshot share is below the threshold, or the number of shots has reached its limit.
     #[must_use]
     pub fn is_done(&self) -> bool {
         self.unshot_share() <= f64::from(self.settings.threshold)
@@ -128,12 +128,12 @@ impl<'a> Progressive<'a> {
         Ok(seconds)
     }
 
-    /// Progress 0..1 on a logarithmic scale, because unshot power falls by a constant factor per pass.
+    /// Progress 0..1 on a logarithmic scale, because unshot power decreases by a constant factor per pass.
     fn done_share(&self) -> f32 {
         (self.unshot_share().max(1e-12).ln() / f64::from(self.settings.threshold).ln()).clamp(0.0, 1.0) as f32
     }
 
-    /// The patches with the greatest unshot power, greatest first.
+    /// Returns the patches with the greatest unshot power, greatest first.
     fn greatest_unshot(&self) -> Vec<PatchId> {
         let power = |p: &PatchId| luminance(self.solution.unshot.total(p.index()));
         let mut patches: Vec<PatchId> = (0..self.mesh.patches.len()).map(PatchId::new).collect();

@@ -13,7 +13,7 @@ pub struct PatchRow {
     pub entries: Vec<Entry>,
     /// Share of the view that ends on black backs.
     pub back: f32,
-    /// Share of the view that meets no surface.
+    /// Share of the view without a surface.
     pub sky: f32,
 }
 
@@ -28,13 +28,13 @@ pub struct RowStore {
 }
 
 impl RowStore {
-    /// An empty store; each row is the mean over `points_a_patch` viewpoints.
+    /// Creates an empty store. Each row is the mean over `points_a_patch` viewpoints.
     #[must_use]
     pub fn new(num_patches: usize, points_a_patch: usize, budget: usize) -> Self {
         Self { rows: vec![None; num_patches], bytes: 0, budget, points_a_patch, num_computed: 0 }
     }
 
-    /// The row of a patch; `None` if it is not kept.
+    /// Returns the row of a patch, or `None` if it is not stored.
     #[must_use]
     pub fn get(&self, patch: PatchId) -> Option<&PatchRow> {
         self.rows[patch.index()].as_ref()
@@ -79,7 +79,7 @@ impl RowStore {
         Ok(found.len() == points.len())
     }
 
-    /// Drops rows of `patches`, the last first, until the budget is kept.
+    /// Drops rows of `patches`, the last first, until all rows fit into the budget.
     pub fn keep_within_budget(&mut self, patches: &[PatchId]) {
         for patch in patches.iter().rev() {
             if self.bytes <= self.budget {
@@ -92,7 +92,7 @@ impl RowStore {
     }
 }
 
-/// One entry per element, sorted by element id.
+/// Returns one entry per element, sorted by element id.
 fn merged(entries: &[Entry]) -> Vec<Entry> {
     let mut sorted = entries.to_vec();
     sorted.sort_by_key(|entry| entry.element);
@@ -107,8 +107,8 @@ fn merged(entries: &[Entry]) -> Vec<Entry> {
     sorted
 }
 
-/// The mean of the rows of one patch's viewpoints. Viewpoints inside a solid are left out if there are others: they exchange
-/// no light and would darken the open part of the patch.
+/// Returns the mean of the rows of one patch's viewpoints. Viewpoints inside a solid are left out if there are others,
+/// because they exchange no light and would darken the open part of the patch.
 fn mean_row(rows: &[PatchRow]) -> PatchRow {
     let is_open = |row: &&PatchRow| row.back <= MAX_BACK_SHARE;
     let num_open = rows.iter().filter(is_open).count();

@@ -49,13 +49,13 @@ impl Solution {
 /// Power balance per channel, lumen: emitted = absorbed + unshot + escaped.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Energy {
-    /// Arrived at surfaces straight from the lights.
+    /// Power that arrived at surfaces straight from the lights.
     pub emitted: DVec3,
-    /// Absorbed by surfaces, black backs included.
+    /// Power absorbed by surfaces, black backs included.
     pub absorbed: DVec3,
-    /// Not yet shot.
+    /// Power not yet shot.
     pub unshot: DVec3,
-    /// Left the scene after at least one reflection.
+    /// Power that left the scene after at least one reflection.
     pub escaped: DVec3,
 }
 
