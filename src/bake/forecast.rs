@@ -14,7 +14,7 @@ const DRAWING: usize = 140 << 20;
 const DRAWN_TRIANGLE: usize = 2200;
 
 /// Elements that subdivision typically adds, as a share of the largest number that it may add. The first value is for
-/// scenes where all lights cast soft shadows, the second for lights that cast hard ones.
+/// scenes whose lights all cast soft shadows, the second for scenes with lights that cast hard ones.
 const TYPICAL_GROWTH: [f64; 2] = [0.1, 0.8];
 
 /// Number of entries of a row, as a share of its rays. Rays that hit the same element share an entry.
