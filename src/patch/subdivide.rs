@@ -33,7 +33,7 @@ pub enum MeshError {
         /// Element size, metres.
         element_size: f32,
     },
-    /// There is no surface to light.
+    /// The scene has no triangles.
     #[error("the scene has no triangles")]
     Empty,
 }

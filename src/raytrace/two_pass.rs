@@ -60,7 +60,7 @@ impl<'a> SecondPass<'a> {
     /// Prepares the second pass over `baked`. Returns `None` if it was cancelled.
     ///
     /// `tracer` must hold the elements of `baked`. Cost: seconds if there are mirrors or panes, whose caustics are
-    /// solved here; else next to nothing.
+    /// solved here; else negligible.
     #[must_use]
     pub fn new(
         tracer: &'a Tracer<'a>,

@@ -21,7 +21,7 @@ use crate::patch::PatchMesh;
 use crate::radiosity::field::Field;
 
 /// Largest number of viewpoints gathered before the cache and the noise are evaluated again. The first rounds are
-/// small, because later ones use their results; each is twice as large as the one before.
+/// small, because later ones use their results: each is twice as large as all before it together.
 const ROUND: usize = 512;
 const FIRST_ROUND: usize = 32;
 

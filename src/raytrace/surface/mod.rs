@@ -1,4 +1,4 @@
-//! Surfaces that rays meet: diffuse and specular scattering, normal maps.
+//! Surfaces that rays hit: diffuse and specular scattering, normal maps.
 
 pub(crate) mod hit;
 pub(crate) mod normal_map;

@@ -1,6 +1,6 @@
 //! The binary tree that is collapsed into a wide one: built by two methods, of which the cheaper result is used.
 //!
-//! The surface area heuristic (SAH) estimates the cost of a tree: a ray that meets a box meets a box within it with a
+//! The surface area heuristic (SAH) estimates the cost of a tree: a ray that hits a box hits a box within it with a
 //! probability equal to the ratio of their surface areas, so cost = sum over the nodes of area x cost of the node.
 //! Clustering neighbours from below gives the lowest cost for most scenes, but not where many boxes are equal, as those
 //! of the elements of a bake: ties join them to long strips. Splitting from above, at the best of some buckets along

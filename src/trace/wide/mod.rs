@@ -70,7 +70,7 @@ impl WideTree {
         number as u32
     }
 
-    /// Visits the leaves whose boxes the ray meets within its reach, near ones first. The visitor may shorten the
+    /// Visits the leaves whose boxes the ray hits within its reach, near ones first. The visitor may shorten the
     /// reach, and ends the walk by returning false.
     #[inline]
     pub(super) fn visit(&self, probe: &mut Probe, mut visitor: impl FnMut(&mut Probe, &Leaf) -> bool) {
