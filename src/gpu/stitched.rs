@@ -112,7 +112,7 @@ mod tests {
             ("bad.wgsl", "@fragment\nfn fragment() -> @location(0) u32 {\n    return 1.5;\n}\n"),
         ]);
         let message = shader.check().expect_err("a float is no u32");
-        assert!(message.starts_with("bad.wgsl:"), "{message}");
+        assert!(message.starts_with("bad.wgsl:3:"), "{message}");
     }
 
     #[test]

@@ -26,9 +26,11 @@ const FLOORS: [(&str, f32); 14] = [
     ("cli", 7.0),
 ];
 
+/// Folders that stand above the device and still never use it: geometry and rays work without a GPU.
+const WITHOUT_DEVICE: [&str; 3] = ["patch", "trace", "baked"];
+
 /// Floors inside a folder: names of its files and folders, the lowest floor first. Those on one floor never use each
-/// other.
-/// Files that are not listed are free, for example settings that contain those of each technique.
+/// other. Files that are not listed are free, for example settings that contain those of each technique.
 pub type Rooms<'a> = (&'a str, &'a [&'a [&'a str]]);
 
 pub const ROOMS: &[Rooms<'_>] = &[
@@ -86,8 +88,10 @@ pub fn upward_imports(imports: &Imports) -> Vec<String> {
             continue;
         }
         let (part, below) = (house_part(file), house_part(target));
-        if part != below && height(part).is_none_or(|part| height(below).is_none_or(|below| below >= part)) {
-            found.push(format!("{file} uses {names} of {target}, and {below} is not below {part}"));
+        let is_lower = height(part).zip(height(below)).is_some_and(|(part, below)| below < part);
+        let is_banned = below == "gpu" && WITHOUT_DEVICE.contains(&part);
+        if part != below && (!is_lower || is_banned) {
+            found.push(format!("{file} uses {names} of {target}, and {part} must not use {below}"));
         }
     }
     found

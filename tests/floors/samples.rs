@@ -44,6 +44,16 @@ fn a_sideways_import_is_caught() {
 }
 
 #[test]
+fn geometry_that_uses_the_device_is_caught() {
+    let gpu = ("gpu/mod.rs", "pub struct Gpu;");
+    let path = "fn f() { let gpu = crate::gpu::Gpu; }";
+    for file in ["patch/mod.rs", "trace/mod.rs", "baked/mod.rs"] {
+        assert_eq!(upward(&[(file, path), gpu]), 1, "{file}");
+    }
+    assert_eq!(upward(&[("render/mod.rs", path), gpu]), 0);
+}
+
+#[test]
 fn a_visibility_is_no_import() {
     let root = ("lib.rs", "pub mod bake;\npub use bake::bake;");
     let child = ("bake/clock.rs", "pub(in crate::bake) struct Clock;");
