@@ -1,5 +1,5 @@
-//! Large scenes: hemicubes per second with and without culling, patches per triangle, and the memory of a bake against its
-//! forecast, in one run.
+//! Large scenes: hemicubes per second with and without culling, patches per triangle, and the memory of a bake against
+//! its forecast, in one run.
 //!
 //! `cargo bench --bench large_scenes -- [SCENE.glb]`; besides the file it takes a generated scene of 200,000 triangles.
 

@@ -56,8 +56,8 @@
 //! 0. [`base`]: ids, colour, sampling, progress.
 //! 1. [`scene`]: a glTF file becomes a validated [`Scene`]. [`gpu`]: the device.
 //! 2. [`trace`], [`patch`], [`baked`]: rays, patches and elements, stored light.
-//! 3. [`form_factor`], [`raytrace`], [`render`], [`lightmap`]: rows of form factors; traced and drawn pictures of a lit scene; its light
-//!    as a texture.
+//! 3. [`form_factor`], [`raytrace`], [`render`], [`lightmap`]: rows of form factors; traced and drawn pictures of a lit
+//!    scene; its light as a texture.
 //! 4. [`radiosity`]: direct light, solvers, light at vertices.
 //! 5. [`mod@bake`]: the whole job as one recipe.
 //! 6. [`viewer`]: the window.

@@ -1,4 +1,5 @@
-//! Every shader of the program, found by the `shader!` declarations in the sources, is valid WGSL; every WGSL file is used.
+//! Every shader of the program, found by the `shader!` declarations in the sources, is valid WGSL; every WGSL file is
+//! used.
 
 use std::collections::BTreeSet;
 use std::path::Path;

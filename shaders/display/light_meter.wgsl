@@ -1,7 +1,7 @@
 // Light meter: computes the exposure of a picture from a histogram of its log2 luminance.
 //
-// The log-average is placed at middle grey (Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images", eq. 1),
-// unless the brightest twentieth of the pixels would then exceed HIGHLIGHT times white.
+// The log-average is placed at middle grey (Reinhard et al. 2002, "Photographic Tone Reproduction for Digital Images",
+// eq. 1), unless the brightest twentieth of the pixels would then exceed HIGHLIGHT times white.
 
 const NUM_BINS: u32 = 256u;
 // Distance between counted pixels in rows and columns: 2 for a picture on its own, 4 in a movement.

@@ -7,9 +7,9 @@ use crate::gpu::Gpu;
 
 /// Observes a bake: its progress, its mesh and the light so far.
 ///
-/// [`on_mesh`](Self::on_mesh) is called first, and again whenever the mesh is refined; [`on_light`](Self::on_light) follows
-/// whenever [`is_light_due`](Self::is_light_due) returns true, always for the last mesh. All calls are made on the thread
-/// that bakes. The bake ends early if [`Progress::is_cancelled`] returns true, and keeps what is solved.
+/// [`on_mesh`](Self::on_mesh) is called first, and again whenever the mesh is refined; [`on_light`](Self::on_light)
+/// follows whenever [`is_light_due`](Self::is_light_due) returns true, always for the last mesh. All calls are made on
+/// the thread that bakes. The bake ends early if [`Progress::is_cancelled`] returns true, and keeps what is solved.
 pub trait BakeObserver: Progress {
     /// Called with the mesh that the light belongs to from now on, and the light known so far.
     fn on_mesh(&self, _mesh: &BakedScene) {}
@@ -28,8 +28,8 @@ impl BakeObserver for Unwatched {}
 pub struct BakeContext<'a> {
     /// Device that draws hemicubes; `None` computes form factors by rays.
     pub gpu: Option<&'a Gpu>,
-    /// File of form-factor rows: rows in it are read, rows that are missing are added. A stopped bake continues from it, and
-    /// a bake with other colours or lamps reuses most of it.
+    /// File of form-factor rows: rows in it are read, rows that are missing are added. A stopped bake continues from
+    /// it, and a bake with other colours or lamps reuses most of it.
     pub row_cache: Option<&'a RowCache>,
     /// Observes the bake and may cancel it.
     pub observer: &'a dyn BakeObserver,

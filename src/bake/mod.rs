@@ -1,8 +1,8 @@
 //! Floor 5: the whole bake, from a scene to a scene with its light.
 //!
-//! [`bake`] is one recipe of four stages: mesh, direct light, indirect light of patches, indirect light of vertices. Settings
-//! are passed in, a [`Report`] comes out, and a [`BakeObserver`] may follow and cancel. [`measure`](fn@measure) computes the
-//! irradiance at points of a baked scene.
+//! [`bake`] is one recipe of four stages: mesh, direct light, indirect light of patches, indirect light of vertices.
+//! Settings are passed in, a [`Report`] comes out, and a [`BakeObserver`] may follow and cancel.
+//! [`measure`](fn@measure) computes the irradiance at points of a baked scene.
 
 mod context;
 mod error;

@@ -57,8 +57,8 @@ pub fn bake(scene: &Scene, settings: &BakeSettings) -> Result<Bake, BakeError> {
 /// After a cancel it returns the solution so far, with averages of the elements in place of gathered light.
 ///
 /// # Errors
-/// Returns an error if the scene has no triangles or no light or would need too many elements, if hemicubes are requested
-/// without a device, or if the device fails. A row cache that cannot be written costs time and is no error.
+/// Returns an error if the scene has no triangles or no light or would need too many elements, if hemicubes are
+/// requested without a device, or if the device fails. A row cache that cannot be written costs time and is no error.
 pub fn bake_with(scene: &Scene, settings: &BakeSettings, context: &BakeContext<'_>) -> Result<Bake, BakeError> {
     if scene.light_groups.is_empty() {
         return Err(BakeError::NoLight(scene.name.clone()));

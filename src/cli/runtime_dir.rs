@@ -1,9 +1,9 @@
 //! Suppresses a message of the Wayland library on machines without a desktop.
 //!
-//! In each Vulkan instance, Mesa's device selection layer (22.3) tries to connect to a Wayland display. Without a desktop the
-//! variable `XDG_RUNTIME_DIR` is not set, and libwayland then prints "error: XDG_RUNTIME_DIR is invalid or not set in the
-//! environment." If the variable is set, the connection fails without a message. Safe Rust cannot change the
-//! environment of the own process, so the program is executed again in the same process with the variable set.
+//! In each Vulkan instance, Mesa's device selection layer (22.3) tries to connect to a Wayland display. Without a
+//! desktop the variable `XDG_RUNTIME_DIR` is not set, and libwayland then prints "error: XDG_RUNTIME_DIR is invalid or
+//! not set in the environment." If the variable is set, the connection fails without a message. Safe Rust cannot change
+//! the environment of the own process, so the program is executed again in the same process with the variable set.
 
 /// A folder without sockets. It need not exist.
 #[cfg(target_os = "linux")]

@@ -1,17 +1,18 @@
 //! Form factor from a point to a polygon in closed form, without occlusion: Lambert's contour integral.
 //!
-//! By Stokes' theorem the integral of cos theta_x cos theta_y / (pi r^2) over a polygon becomes one along its outline, and
-//! each edge contributes the angle it subtends times the cosine between the normal and the plane through the edge and the
-//! point.
+//! By Stokes' theorem the integral of cos theta_x cos theta_y / (pi r^2) over a polygon becomes one along its outline,
+//! and each edge contributes the angle it subtends times the cosine between the normal and the plane through the edge
+//! and the point.
 //!
-//! Source: Lambert 1760, "Photometria"; Baum, Rushmeier, Winget 1989, section 4 (the contour sum as used for radiosity).
+//! Source: Lambert 1760, "Photometria"; Baum, Rushmeier, Winget 1989, section 4 (the contour sum as used for
+//! radiosity).
 
 use std::f32::consts::TAU;
 
 use glam::Vec3;
 
-/// Form factor from a differential area at `point` with unit `normal` to a polygon of at most seven corners, whichever way
-/// the polygon faces.
+/// Form factor from a differential area at `point` with unit `normal` to a polygon of at most seven corners, whichever
+/// way the polygon faces.
 ///
 /// The part of the polygon below the horizon is clipped.
 ///

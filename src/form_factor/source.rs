@@ -21,9 +21,9 @@ pub enum FormFactorError {
 
 /// A method that computes rows of form factors over the elements of one mesh.
 ///
-/// [`Hemicubes`](super::hemicube::Hemicubes) and [`Hemispheres`](super::hemisphere::Hemispheres) implement it. A method of
-/// your own can drive every solver in the `radiosity` module: a row only has to hold, for each element in view, the form
-/// factor F(viewpoint, element), and entries, backs and sky have to sum to 1.
+/// [`Hemicubes`](super::hemicube::Hemicubes) and [`Hemispheres`](super::hemisphere::Hemispheres) implement it. A method
+/// of your own can drive every solver in the `radiosity` module: a row only has to hold, for each element in view, the
+/// form factor F(viewpoint, element), and entries, backs and sky have to sum to 1.
 ///
 /// ```
 /// use hemicube::form_factor::{FormFactorError, FormFactorSource, Row, Viewpoint, map_rows};
@@ -57,8 +57,8 @@ pub enum FormFactorError {
 pub trait FormFactorSource {
     /// Computes the rows of `viewpoints` in batches and passes each to `visit` with its index, possibly in parallel.
     ///
-    /// Calls `may_continue` before each batch and stops if it returns false. Returns how many rows were passed on: always
-    /// those of the first viewpoints.
+    /// Calls `may_continue` before each batch and stops if it returns false. Returns how many rows were passed on:
+    /// always those of the first viewpoints.
     ///
     /// # Errors
     /// Returns an error if the device or the method fails.

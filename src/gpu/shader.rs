@@ -1,8 +1,8 @@
 //! Declaration of shaders: WGSL files concatenated to one module.
 //!
-//! Each pass declares its own [`Shader`] with the `shader!` macro. There is no preprocessor: a shader is a list of files
-//! below `shaders/`, and its variants are pipeline `override` constants. `tests/shaders.rs` finds every declaration in the
-//! sources and validates it with naga; `shader_library` reloads the files while the program runs.
+//! Each pass declares its own [`Shader`] with the `shader!` macro. There is no preprocessor: a shader is a list of
+//! files below `shaders/`, and its variants are pipeline `override` constants. `tests/shaders.rs` finds every
+//! declaration in the sources and validates it with naga; `shader_library` reloads the files while the program runs.
 
 /// A complete WGSL module with the files of which it consists.
 #[derive(Clone, Copy)]

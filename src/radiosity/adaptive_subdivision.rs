@@ -1,8 +1,8 @@
 //! Adaptive subdivision: elements are halved where light is not linear between their corners.
 //!
-//! Light is sampled at the middle of every edge. If it differs from the mean of the ends, as at the edge of a shadow, the
-//! edge is halved, and the sample becomes the light of the new vertex. The next round tests only new edges, so the work
-//! follows the shadows and not the area. Patches stay unchanged: elements receive, patches shoot.
+//! Light is sampled at the middle of every edge. If it differs from the mean of the ends, as at the edge of a shadow,
+//! the edge is halved, and the sample becomes the light of the new vertex. The next round tests only new edges, so the
+//! work follows the shadows and not the area. Patches stay unchanged: elements receive, patches shoot.
 //!
 //! Source: Cohen, Greenberg, Immel, Brock 1986 (elements within patches); Vedel, Puech 1991, "A testbed for adaptive
 //! subdivision in progressive radiosity" (the test at midpoints).
@@ -59,8 +59,8 @@ impl<'a> AdaptiveSubdivision<'a> {
         Ok((subdivision, PatchMesh::new(scene, &sizes)?))
     }
 
-    /// Halves edges of `mesh`, whose light vertices have the light `sampled`, until light is linear along all of them. Errors
-    /// well below the luminance `floor` are ignored; `evaluate` samples the light of further viewpoints.
+    /// Halves edges of `mesh`, whose light vertices have the light `sampled`, until light is linear along all of them.
+    /// Errors well below the luminance `floor` are ignored; `evaluate` samples the light of further viewpoints.
     ///
     /// # Errors
     /// Returns an error if `evaluate` does, or if the mesh would be too large.

@@ -4,10 +4,10 @@
 //!
 //! B_i = E_i + rho_i * sum over j of F_ij B_j
 //!
-//! with exitance E, reflectance rho and form factors F. All values here are irradiance rather than radiosity, and direct
-//! irradiance D (straight from the lights) is kept apart from indirect irradiance I, so that B_i = E_i + rho_i (D_i + I_i)
-//! and I_i = sum over j of F_ij rho_j (D_j + I_j): the system of the solvers. Patches p shoot, elements e receive, light
-//! vertices l carry the result, light groups g are solved side by side.
+//! with exitance E, reflectance rho and form factors F. All values here are irradiance rather than radiosity, and
+//! direct irradiance D (straight from the lights) is kept apart from indirect irradiance I, so that B_i = E_i + rho_i
+//! (D_i + I_i) and I_i = sum over j of F_ij rho_j (D_j + I_j): the system of the solvers. Patches p shoot, elements e
+//! receive, light vertices l carry the result, light groups g are solved side by side.
 //!
 //! | step | room | what |
 //! |---|---|---|

@@ -1,5 +1,5 @@
-//! Viewpoints on a mesh: points slightly above its patches, elements and light vertices, at which form factors and direct
-//! light are sampled.
+//! Viewpoints on a mesh: points slightly above its patches, elements and light vertices, at which form factors and
+//! direct light are sampled.
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -11,7 +11,8 @@ use crate::form_factor::Viewpoint;
 use crate::patch::{Element, LightVertex, Patch, PatchMesh};
 use crate::scene::{Scene, normal_of};
 
-/// Height of a viewpoint above its surface, as a share of the scene's extent: well above rounding errors, well below detail.
+/// Height of a viewpoint above its surface, as a share of the scene's extent: well above rounding errors, well below
+/// detail.
 const HEIGHT: f32 = 2e-5;
 
 /// Share of the way from a vertex to the middle of the elements around it by which its viewpoint is moved. A vertex in

@@ -21,8 +21,8 @@ pub enum Exposure {
 /// Curve that maps radiance to display colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ToneMap {
-    /// Khronos PBR Neutral (2024): colours below 0.8 of white are unchanged; above it a smooth curve compresses the largest
-    /// channel p to 1 - 0.04 / (p - 0.6), and colours fade towards white without a change of hue.
+    /// Khronos PBR Neutral (2024): colours below 0.8 of white are unchanged; above it a smooth curve compresses the
+    /// largest channel p to 1 - 0.04 / (p - 0.6), and colours fade towards white without a change of hue.
     Neutral,
     /// Clamps each channel at white.
     Linear,

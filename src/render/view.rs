@@ -1,8 +1,8 @@
 //! The camera of a picture as matrices, with reversed depth.
 //!
-//! The depth of a point at distance d is near / d: 1 at the near plane and 0 at infinity (Lapidous and Jiao 1999, "Optimal
-//! Depth Buffer for Low-Cost Graphics Hardware"). In a float buffer its relative precision is nearly the same at every
-//! distance, so the near plane can be a millimetre away and no far plane is needed.
+//! The depth of a point at distance d is near / d: 1 at the near plane and 0 at infinity (Lapidous and Jiao 1999,
+//! "Optimal Depth Buffer for Low-Cost Graphics Hardware"). In a float buffer its relative precision is nearly the same
+//! at every distance, so the near plane can be a millimetre away and no far plane is needed.
 
 use glam::camera::rh::proj::directx;
 use glam::{Mat4, Vec3, Vec4};

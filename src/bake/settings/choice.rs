@@ -10,7 +10,8 @@ pub struct UnknownName {
     pub known: Vec<&'static str>,
 }
 
-/// Gives an enum its table: `ALL`, `name`, `hint`, `FromStr`, `Display` and `Serialize` from rows `Variant: name, hint;`.
+/// Gives an enum its table: `ALL`, `name`, `hint`, `FromStr`, `Display` and `Serialize` from rows
+/// `Variant: name, hint;`.
 macro_rules! choice_table {
     ($choice:ident { $($variant:ident: $name:literal, $hint:literal;)+ }) => {
         impl $choice {

@@ -1,4 +1,5 @@
-//! The sources of form factors of a bake: hemicubes or hemispheres, coarse ones for the solver and fine ones for the gather.
+//! The sources of form factors of a bake: hemicubes or hemispheres, coarse ones for the solver and fine ones for the
+//! gather.
 
 use crate::bake::context::BakeContext;
 use crate::bake::error::BakeError;

@@ -1,7 +1,7 @@
 //! Selects what a face draws: skips chunks outside its frustum, and triangles that cover the centre of no pixel.
 //!
-//! In a finely modelled scene most triangles in view fall between the pixels of a hemicube. A driver rejects them too, but
-//! only after it has shaded and set up their corners.
+//! In a finely modelled scene most triangles in view fall between the pixels of a hemicube. A driver rejects them too,
+//! but only after it has shaded and set up their corners.
 
 use glam::{BVec4A, Mat4, Vec3, Vec4};
 
@@ -47,8 +47,8 @@ impl Culling {
         Self { chunks, lanes, reach }
     }
 
-    /// Indices of the corners that a face of `size` pixels draws from `eye`, the nearest chunks first, so that the depth test
-    /// rejects most of the others before they are shaded.
+    /// Indices of the corners that a face of `size` pixels draws from `eye`, the nearest chunks first, so that the
+    /// depth test rejects most of the others before they are shaded.
     pub(super) fn indices(&self, clip_from_world: &Mat4, eye: Vec3, size: (u32, u32)) -> Vec<u32> {
         let frustum = Frustum::new(clip_from_world);
         let meets = |(chunk, bounds): (usize, &Bounds)| {
@@ -133,7 +133,8 @@ impl Projection {
         }
         // Corners in pixels, by axis; the centres of pixels are whole numbers.
         let at = [0, 1].map(|axis| corners.map(|p| p[axis] / p[2] * self.half[axis] + (self.half[axis] - 0.5)));
-        // First and last pixel centre in the bounding box of the triangle, and whether the box is at most two pixels wide.
+        // First and last pixel centre in the bounding box of the triangle, and whether the box is at most two pixels
+        // wide.
         let span = |axis: usize| {
             let [a, b, c] = at[axis];
             let (low, high) = (a.min(b).min(c) - DISPLACEMENT, a.max(b).max(c) + DISPLACEMENT);

@@ -1,12 +1,12 @@
 //! Delta form factors: the share of the view that each pixel of a hemicube covers.
 //!
-//! Source: Cohen, Greenberg 1985, "The Hemi-Cube"; here integrated over the pixel in closed form instead of evaluated at
-//! its centre.
+//! Source: Cohen, Greenberg 1985, "The Hemi-Cube"; here integrated over the pixel in closed form instead of evaluated
+//! at its centre.
 
 use std::f64::consts::PI;
 
-/// Delta form factors of a hemicube `n` pixels wide, in the layout of its atlas cell: `n` columns and `3 n` rows, first the
-/// top face, then the four half sides with the horizon at their bottom row. They sum to 1.
+/// Delta form factors of a hemicube `n` pixels wide, in the layout of its atlas cell: `n` columns and `3 n` rows, first
+/// the top face, then the four half sides with the horizon at their bottom row. They sum to 1.
 #[must_use]
 pub fn delta_form_factors(n: u32) -> Vec<f32> {
     let step = 2.0 / f64::from(n);

@@ -43,7 +43,8 @@ impl<'a> Hemicubes<'a> {
         let pipeline = pipeline(gpu, &bindings_layout, geometry.has_cutouts);
         let layout = Layout { n };
         let atlases = (0..NUM_ATLASES).map(|_| Atlas::new(gpu, &bindings_layout, &geometry, layout)).collect();
-        // Reversed depth has the relative precision of a float, so the near plane can be close enough for surfaces in contact.
+        // Reversed depth has the relative precision of a float, so the near plane can be close enough for surfaces in
+        // contact.
         let near = scene.bounds().extent() * 1e-6;
         Self { gpu, geometry, pipeline, atlases, layout, deltas: delta_form_factors(n), near }
     }
@@ -84,8 +85,8 @@ impl<'a> Hemicubes<'a> {
         Ok(seen.into_inner())
     }
 
-    /// Draws the viewpoints atlas by atlas and passes each finished atlas to `finish` with the index of its first viewpoint
-    /// and the number of viewpoints. Returns how many viewpoints were drawn.
+    /// Draws the viewpoints atlas by atlas and passes each finished atlas to `finish` with the index of its first
+    /// viewpoint and the number of viewpoints. Returns how many viewpoints were drawn.
     fn draw(
         &mut self,
         viewpoints: &[Viewpoint],

@@ -17,8 +17,8 @@ pub(super) fn element_of(item: u32) -> Option<u32> {
 
 /// Sums the delta form factors of each run of equal items.
 ///
-/// `items` yields the pixel rows of the atlas cell, `deltas` has the same layout. Runs keep their order, so the sum is the
-/// same on every machine; an element seen in several runs gets several entries.
+/// `items` yields the pixel rows of the atlas cell, `deltas` has the same layout. Runs keep their order, so the sum is
+/// the same on every machine; an element seen in several runs gets several entries.
 pub(super) fn sum_items<'a>(items: impl Iterator<Item = &'a [u32]>, deltas: &[f32], width: usize, row: &mut Row) {
     row.clear();
     for (line, weights) in items.zip(deltas.chunks_exact(width)) {

@@ -1,9 +1,9 @@
 //! Form factor between two polygons by contour integrals: exact without occlusion.
 //!
 //! Stokes' theorem, applied twice, turns the double area integral of the form factor into a double integral along both
-//! outlines: F_AB = 1 / (2 pi A) x the contour integral over both boundaries of ln r dr_A . dr_B. Along one edge it has a
-//! closed form; along the other it is integrated adaptively, from break point to break point, because its slope is infinite
-//! at points where edges touch.
+//! outlines: F_AB = 1 / (2 pi A) x the contour integral over both boundaries of ln r dr_A . dr_B. Along one edge it has
+//! a closed form; along the other it is integrated adaptively, from break point to break point, because its slope is
+//! infinite at points where edges touch.
 //!
 //! Sources: Sparrow 1963, "A New and Simpler Formulation for Radiative Angle Factors"; Schröder, Hanrahan 1993, "On the
 //! Form Factor between Two Polygons"; Mazumder, Ravishankar 2012 (edges in common).
@@ -60,8 +60,8 @@ fn edge_pair((a, a_end): (DVec3, DVec3), (b, b_end): (DVec3, DVec3), tolerance: 
     cosine * breaks.windows(2).map(|pair| integrate(&inner, pair[0], pair[1], tolerance)).sum::<f64>()
 }
 
-/// Integral along an edge of the logarithm of the distance to a point; `offset` is the vector from the edge's start to the
-/// point.
+/// Integral along an edge of the logarithm of the distance to a point; `offset` is the vector from the edge's start to
+/// the point.
 fn log_distance(offset: DVec3, along: DVec3, length: f64) -> f64 {
     let foot = offset.dot(along);
     let height = (offset - foot * along).length();

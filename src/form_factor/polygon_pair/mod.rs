@@ -1,4 +1,5 @@
-//! The form factor of a pair of polygons, with a third polygon that may stand between: by closed forms, rays or hemicubes.
+//! The form factor of a pair of polygons, with a third polygon that may stand between: by closed forms, rays or
+//! hemicubes.
 
 mod contour;
 mod pair;

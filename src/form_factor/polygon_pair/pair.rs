@@ -8,8 +8,8 @@ use super::contour::polygon_to_polygon;
 use super::polygon::{Plane, Polygon};
 use super::quadrature::integrate_triangle;
 
-/// Two polygons that exchange light, and one that may stand between. The two emit and receive on their fronts; the blocker
-/// blocks from both sides.
+/// Two polygons that exchange light, and one that may stand between. The two emit and receive on their fronts; the
+/// blocker blocks from both sides.
 #[derive(Clone, Debug)]
 pub struct PolygonPair {
     /// The polygon that light leaves.
@@ -46,8 +46,8 @@ impl PolygonPair {
     /// # Ok::<(), hemicube::form_factor::polygon_pair::PolygonError>(())
     /// ```
     ///
-    /// Equation: F = F(A, B) - 1/A x integral over A of the point-to-polygon form factor of the part of B in the blocker's
-    /// shadow.
+    /// Equation: F = F(A, B) - 1/A x integral over A of the point-to-polygon form factor of the part of B in the
+    /// blocker's shadow.
     #[must_use]
     pub fn analytic(&self) -> Estimate {
         let open = polygon_to_polygon(&self.a, &self.b);

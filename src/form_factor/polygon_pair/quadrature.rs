@@ -5,7 +5,8 @@ use glam::DVec3;
 /// Largest number of times that an interval is halved.
 const MAX_DEPTH: u32 = 48;
 
-/// Positive nodes of the 15-point Kronrod rule, the largest first; every second one is a node of the 7-point Gauss rule.
+/// Positive nodes of the 15-point Kronrod rule, the largest first; every second one is a node of the 7-point Gauss
+/// rule.
 const NODES: [f64; 8] = [
     0.991_455_371_120_812_6,
     0.949_107_912_342_758_5,

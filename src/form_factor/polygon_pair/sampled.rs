@@ -51,15 +51,16 @@ impl PolygonPair {
     }
 }
 
-/// A pair as a scene in single precision, of about unit size round the origin: viewpoints lie on the smaller polygon, the
-/// larger one and the blocker are the scene.
+/// A pair as a scene in single precision, of about unit size round the origin: viewpoints lie on the smaller polygon,
+/// the larger one and the blocker are the scene.
 struct PairScene {
     scene: Scene,
     mesh: PatchMesh,
     viewer: Polygon,
     /// Number of triangles of the larger polygon, which come first.
     num_seen: usize,
-    /// Form factor of the pair over that from the viewer: by reciprocity, the ratio of the areas if the two are swapped.
+    /// Form factor of the pair over that from the viewer: by reciprocity, the ratio of the areas if the two are
+    /// swapped.
     ratio: f64,
 }
 
@@ -95,8 +96,8 @@ impl PairScene {
         })
     }
 
-    /// `num_points` points spread evenly over the viewer: each triangle of its fan has a sequence of its own, as long as its
-    /// share of the area.
+    /// `num_points` points spread evenly over the viewer: each triangle of its fan has a sequence of its own, as long
+    /// as its share of the area.
     fn viewpoints(&self, num_points: u32) -> Vec<Viewpoint> {
         let corners = self.viewer.corners();
         let mut viewpoints = Vec::with_capacity(num_points as usize);

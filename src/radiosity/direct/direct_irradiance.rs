@@ -1,9 +1,10 @@
 //! Direct irradiance at viewpoints, by exact formulas and visibility rays.
 //!
-//! Direct light dominates the quality of the picture, so it is not sampled by hemicube pixels. A punctual light takes one
-//! ray per viewpoint: E = I cos theta / r^2 times the transmittance along the ray. An emissive surface takes the closed form
-//! of its unoccluded irradiance times its visible share. The share is estimated from a few rays if all of them agree; in
-//! penumbrae the rays are doubled until they change the irradiance of the viewpoint by less than a given share.
+//! Direct light dominates the quality of the picture, so it is not sampled by hemicube pixels. A punctual light takes
+//! one ray per viewpoint: E = I cos theta / r^2 times the transmittance along the ray. An emissive surface takes the
+//! closed form of its unoccluded irradiance times its visible share. The share is estimated from a few rays if all of
+//! them agree; in penumbrae the rays are doubled until they change the irradiance of the viewpoint by less than a given
+//! share.
 //!
 //! Source: Ward 1991, "Adaptive shadow testing for ray tracing" (rays by contribution).
 

@@ -81,8 +81,8 @@ pub(super) struct EmitterSample {
 impl Emitters {
     /// Collects the emitters of a scene.
     ///
-    /// Their triangles are the elements if the emission has a texture, else the input triangles: the closed form is exact
-    /// for an untextured panel of any size.
+    /// Their triangles are the elements if the emission has a texture, else the input triangles: the closed form is
+    /// exact for an untextured panel of any size.
     pub(super) fn new(scene: &Scene, mesh: &PatchMesh) -> Self {
         let cell_size = CELL_SHARE * scene.bounds().extent().max(f32::MIN_POSITIVE);
         let mut by_surface: BTreeMap<SurfaceKey, Vec<EmitterTriangle>> = BTreeMap::new();

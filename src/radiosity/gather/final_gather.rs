@@ -3,8 +3,8 @@
 //! E(x) = sum over elements e of F(x, e) B_e is evaluated at *records*, the viewpoints that the [irradiance
 //! cache](super::irradiance_cache) finds too far from all others. Records are densest where light changes fast.
 //!
-//! Source: Wallace, Elmquist, Haines 1989 (radiosity at vertices); Lischinski, Tampieri, Greenberg 1993 (final gather of
-//! a radiosity solution).
+//! Source: Wallace, Elmquist, Haines 1989 (radiosity at vertices); Lischinski, Tampieri, Greenberg 1993 (final gather
+//! of a radiosity solution).
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -25,7 +25,8 @@ use crate::radiosity::field::Field;
 const ROUND: usize = 512;
 const FIRST_ROUND: usize = 32;
 
-/// Iterations of the near-field correction; each multiplies the error by reflectance times form factor of the near elements.
+/// Iterations of the near-field correction; each multiplies the error by reflectance times form factor of the near
+/// elements.
 const NEAR_FIELD_ROUNDS: usize = 3;
 
 /// Where and how densely light is gathered.

@@ -1,14 +1,15 @@
-//! Irradiance cache: indirect irradiance varies slowly, so it is computed at sparse points and interpolated between them.
+//! Irradiance cache: indirect irradiance varies slowly, so it is computed at sparse points and interpolated between
+//! them.
 //!
-//! Ward's split-sphere model bounds how fast irradiance can change. If half of the surrounding sphere at distance R is bright
-//! and half dark, the relative change between a record i and a point x is at most
+//! Ward's split-sphere model bounds how fast irradiance can change. If half of the surrounding sphere at distance R is
+//! bright and half dark, the relative change between a record i and a point x is at most
 //!
 //! error_i(x) = |x - x_i| / R_i + sqrt(1 - n . n_i)
 //!
-//! (translation, then rotation; the constant factors are dropped). R_i is the harmonic mean distance of the surfaces in the
-//! record's view, R = 1 / (sum of F / r): short in corners, long in the open. A point needs no record of its own if one with
-//! error below the tolerance exists. Interpolation uses records up to twice that error, so each point blends several and the
-//! border of a record's neighbourhood stays invisible.
+//! (translation, then rotation; the constant factors are dropped). R_i is the harmonic mean distance of the surfaces in
+//! the record's view, R = 1 / (sum of F / r): short in corners, long in the open. A point needs no record of its own if
+//! one with error below the tolerance exists. Interpolation uses records up to twice that error, so each point blends
+//! several and the border of a record's neighbourhood stays invisible.
 //!
 //! Source: Ward, Rubinstein, Clear 1988, "A ray tracing solution for diffuse interreflection".
 
@@ -57,8 +58,9 @@ impl IrradianceCache {
         Self { tolerance, max_radius, levels: Vec::new() }
     }
 
-    /// Adds the record `index`: a viewpoint that sees surfaces at harmonic mean distance `distance`, the nearest at `nearest`.
-    /// The record's neighbourhood ends before the nearest surface, because light beyond it may be different, as under a shelf.
+    /// Adds the record `index`: a viewpoint that sees surfaces at harmonic mean distance `distance`, the nearest at
+    /// `nearest`. The record's neighbourhood ends before the nearest surface, because light beyond it may be different,
+    /// as under a shelf.
     pub fn insert(&mut self, viewpoint: &Viewpoint, distance: f32, nearest: f32, index: u32) {
         let within = (nearest / BLEND).max(SMALLEST * self.max_radius);
         let radius = (distance * self.tolerance).min(self.max_radius).min(within);
@@ -84,7 +86,8 @@ impl IrradianceCache {
         self.nearby(viewpoint).any(|record| self.error(record, viewpoint).is_some_and(|error| error < self.tolerance))
     }
 
-    /// Sets `weights` to the records that `viewpoint` interpolates, with weights that sum to 1; empty if there are none.
+    /// Sets `weights` to the records that `viewpoint` interpolates, with weights that sum to 1; empty if there are
+    /// none.
     ///
     /// Equation: w = (1 - error / (2 tolerance))^2, error as above.
     pub fn weights(&self, viewpoint: &Viewpoint, weights: &mut Vec<(u32, f32)>) {
@@ -118,8 +121,8 @@ impl IrradianceCache {
         let offset = viewpoint.position - record.position;
         let error = offset.length() * self.tolerance / record.radius
             + (1.0 - viewpoint.normal.dot(record.normal)).max(0.0).sqrt();
-        // A point in front of the record may see surfaces that are hidden from the record, and a record in front of the point
-        // may lie on the surface that blocks the point's view.
+        // A point in front of the record may see surfaces that are hidden from the record, and a record in front of the
+        // point may lie on the surface that blocks the point's view.
         let height = offset.dot(viewpoint.normal + record.normal) * 0.5;
         let is_level = height < IN_FRONT * record.radius && -height < BEHIND * record.radius;
         (error < BLEND * self.tolerance && is_level).then_some(error)

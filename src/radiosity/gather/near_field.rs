@@ -1,9 +1,10 @@
 //! Near-field correction of gathered light.
 //!
-//! The indirect radiosity of a patch is one constant value, but a viewpoint in a corner sees only the edge of the patch.
-//! Once irradiance at the vertices is known, an element close to a viewpoint reflects the irradiance interpolated from its
-//! own vertices, at its nearest point, instead of the mean of its patch. Corners then darken towards the edge, and
-//! viewpoints along an edge receive the same light whether a corner or a side of an element touches them.
+//! The indirect radiosity of a patch is one constant value, but a viewpoint in a corner sees only the edge of the
+//! patch. Once irradiance at the vertices is known, an element close to a viewpoint reflects the irradiance
+//! interpolated from its own vertices, at its nearest point, instead of the mean of its patch. Corners then darken
+//! towards the edge, and viewpoints along an edge receive the same light whether a corner or a side of an element
+//! touches them.
 //!
 //! Source: the error of constant elements near a receiver, Baum, Rushmeier, Winget 1989 (proximity); Wallace, Elmquist,
 //! Haines 1989 (radiosity interpolated from vertices).
@@ -41,8 +42,8 @@ impl<'a> NearField<'a> {
         Self { mesh, radiosity, reach, light: None }
     }
 
-    /// Sets the irradiance `[l][g]` at light vertices. Vertices that are not valid lie in or behind a solid and take the light
-    /// of their neighbours.
+    /// Sets the irradiance `[l][g]` at light vertices. Vertices that are not valid lie in or behind a solid and take
+    /// the light of their neighbours.
     pub fn set_vertex_light(&mut self, direct: &Field, indirect: &Field, is_valid: &[bool]) {
         let (mut direct, mut indirect) = (direct.clone(), indirect.clone());
         fill_hidden(self.mesh, is_valid, [&mut direct, &mut indirect]);
@@ -50,7 +51,8 @@ impl<'a> NearField<'a> {
         self.light = Some((direct, is_valid.to_vec()));
     }
 
-    /// The elements of a row that are close to `point`, and the distance of the nearest point of any surface in the row.
+    /// The elements of a row that are close to `point`, and the distance of the nearest point of any surface in the
+    /// row.
     pub fn near_elements(&self, row: &Row, point: Vec3) -> (Vec<NearElement>, f32) {
         let (mut near, mut nearest) = (Vec::new(), f32::MAX);
         // The exact distance if it may matter, else infinity.

@@ -88,9 +88,9 @@ impl SamplingNoise {
 /// Returns the luminance of the irradiance from `radiosity` `[e][g]` through a row of `num_samples` samples, and its
 /// variance.
 ///
-/// Of n evenly spread samples on one object, only those near its outline hit or miss it by chance: about sqrt(n). Each is
-/// worth the contrast of the object to the mean, so the object adds contrast^2 sqrt(F / N) / N to the variance, where
-/// F = n / N is its form factor and N the number of samples.
+/// Of n evenly spread samples on one object, only those near its outline hit or miss it by chance: about sqrt(n). Each
+/// is worth the contrast of the object to the mean, so the object adds contrast^2 sqrt(F / N) / N to the variance,
+/// where F = n / N is its form factor and N the number of samples.
 #[must_use]
 pub fn irradiance_and_variance(row: &Row, radiosity: &Field, num_samples: f32) -> (f32, f32) {
     let seen: f32 = row.entries.iter().map(|entry| entry.factor).sum();

@@ -1,8 +1,8 @@
 //! The full matrix: all form factors between patches, solved by Gauss-Seidel iteration.
 //!
-//! The original radiosity method, for small scenes and as a reference for the other solvers. Memory and time grow with the
-//! square of the number of patches. A sweep updates one unknown after the other from the newest values of all others, which
-//! converges at least as fast as Jacobi iteration.
+//! The original radiosity method, for small scenes and as a reference for the other solvers. Memory and time grow with
+//! the square of the number of patches. A sweep updates one unknown after the other from the newest values of all
+//! others, which converges at least as fast as Jacobi iteration.
 //!
 //! Source: Goral, Torrance, Greenberg, Battaile 1984; Cohen, Greenberg 1985.
 
@@ -50,8 +50,8 @@ pub fn check_size(mesh: &PatchMesh) -> Result<(), MatrixTooLarge> {
     Ok(())
 }
 
-/// Solves for the indirect irradiance `[p][g]` on the patches; those without a row stay dark. Also returns the number of
-/// sweeps.
+/// Solves for the indirect irradiance `[p][g]` on the patches; those without a row stay dark. Also returns the number
+/// of sweeps.
 ///
 /// Equation: I_p = b_p + sum over q of K_pq I_q with b_p = sum over e of F_pe rho_e D_e and K_pq = sum over e in q of
 /// F_pe rho_e.

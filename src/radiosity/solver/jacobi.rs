@@ -7,7 +7,8 @@
 //! is sampled at one or a few points, so an element close to it receives too much or too little. A row of the receiver
 //! is exact in its neighbourhood and sums to 1 in a closed room.
 //!
-//! Source: Goral, Torrance, Greenberg, Battaile 1984 (the system); Baum, Rushmeier, Winget 1989 (the proximity assumption).
+//! Source: Goral, Torrance, Greenberg, Battaile 1984 (the system); Baum, Rushmeier, Winget 1989 (the proximity
+//! assumption).
 
 use glam::Vec3;
 use rayon::prelude::*;
@@ -23,8 +24,8 @@ const TOLERANCE: f32 = 1e-4;
 /// Largest number of passes: the slowest room, of reflectance 0.99, reduces its error by 1 % per pass.
 const MAX_PASSES: usize = 1000;
 
-/// One pass: replaces indirect irradiance `[p][g]` by what the patches gather from it and from direct irradiance `[e][g]`.
-/// Patches whose row is not kept stay unchanged. Returns the largest change, relative to the brightest patch.
+/// One pass: replaces indirect irradiance `[p][g]` by what the patches gather from it and from direct irradiance
+/// `[e][g]`. Patches whose row is not kept stay unchanged. Returns the largest change, relative to the brightest patch.
 pub fn gather_pass(mesh: &PatchMesh, direct: &Field, rows: &RowStore, on_patches: &mut Field) -> f32 {
     let radiosity = reflected_radiosity(mesh, direct, on_patches);
     let next: Vec<Option<Vec<Vec3>>> = (0..mesh.patches.len())
@@ -62,8 +63,8 @@ pub fn iterate_until_converged(mesh: &PatchMesh, direct: &Field, rows: &RowStore
     on_patches
 }
 
-/// Reflected radiosity `[e][g]` from direct irradiance on elements and indirect irradiance on patches, without emission,
-/// whose light is direct.
+/// Reflected radiosity `[e][g]` from direct irradiance on elements and indirect irradiance on patches, without
+/// emission, whose light is direct.
 ///
 /// Equation: rho_e (D_e + I of e's patch).
 #[must_use]

@@ -1,17 +1,17 @@
 //! Progressive refinement: the patch with the greatest unshot power shoots, until little is left.
 //!
-//! Shooting is Southwell relaxation of the radiosity equation: each step takes the largest residual, here the unshot power
-//! U_p of a patch, and distributes it to the elements e in view with the row of p alone:
+//! Shooting is Southwell relaxation of the radiosity equation: each step takes the largest residual, here the unshot
+//! power U_p of a patch, and distributes it to the elements e in view with the row of p alone:
 //!
 //! - irradiance: I_e += U_p F_pe / A_e
 //! - the reflected share rho_e U_p F_pe joins the unshot power of e's own patch; U_p becomes 0.
 //!
-//! Patches shoot, elements receive. Direct light is already on the elements; its reflection is the first unshot power, so
-//! all light shot here is indirect. Rows are kept within a budget of memory, so a patch that shoots again needs no new
-//! hemicubes.
+//! Patches shoot, elements receive. Direct light is already on the elements; its reflection is the first unshot power,
+//! so all light shot here is indirect. Rows are kept within a budget of memory, so a patch that shoots again needs no
+//! new hemicubes.
 //!
-//! Source: Cohen, Chen, Wallace, Greenberg 1988, "A progressive refinement approach to fast radiosity image generation";
-//! Gortler, Cohen, Slusallek 1994, "Radiosity and relaxation methods" (Southwell).
+//! Source: Cohen, Chen, Wallace, Greenberg 1988, "A progressive refinement approach to fast radiosity image
+//! generation"; Gortler, Cohen, Slusallek 1994, "Radiosity and relaxation methods" (Southwell).
 
 use std::time::Instant;
 
@@ -107,8 +107,8 @@ impl<'a> Progressive<'a> {
             || self.solution.num_shots >= self.settings.max_shots_a_patch * self.mesh.patches.len()
     }
 
-    /// Shoots from one batch of patches, those with the greatest unshot power; does nothing if cancelled before all rows are
-    /// computed. Returns the seconds that form factors took.
+    /// Shoots from one batch of patches, those with the greatest unshot power; does nothing if cancelled before all
+    /// rows are computed. Returns the seconds that form factors took.
     ///
     /// # Errors
     /// Returns an error if the form factors cannot be computed.

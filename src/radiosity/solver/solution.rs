@@ -23,11 +23,11 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// The ambient estimate `[g]`: the irradiance of the unshot power if it were spread evenly over all surfaces, with all its
-    /// reflections. An unfinished solution is displayed with it.
+    /// The ambient estimate `[g]`: the irradiance of the unshot power if it were spread evenly over all surfaces, with
+    /// all its reflections. An unfinished solution is displayed with it.
     ///
-    /// Equation: ambient = (sum of unshot power / A) x R with R = 1 + rho + rho^2 + ... = 1 / (1 - rho), where A is the total
-    /// area and rho the mean reflectance by area.
+    /// Equation: ambient = (sum of unshot power / A) x R with R = 1 + rho + rho^2 + ... = 1 / (1 - rho), where A is the
+    /// total area and rho the mean reflectance by area.
     ///
     /// Source: Cohen, Chen, Wallace, Greenberg 1988 (the ambient term).
     #[must_use]

@@ -1,7 +1,7 @@
 //! Exposure and tone mapping on the CPU, for ray-traced pictures.
 //!
-//! The formulas are those of `shaders/display/light_meter.wgsl` and `shaders/display/tone_map.wgsl`; a test compares the
-//! results. The exposure is
+//! The formulas are those of `shaders/display/light_meter.wgsl` and `shaders/display/tone_map.wgsl`; a test compares
+//! the results. The exposure is
 //!
 //! ```text
 //! exposure = min(0.2 / exp2(mean of log2 L), 1.5 / L at the 95th percentile)

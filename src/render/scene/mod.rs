@@ -1,4 +1,5 @@
-//! The lit scene on the device: vertices, triangles in batches of one material, textures, and the light of the vertices.
+//! The lit scene on the device: vertices, triangles in batches of one material, textures, and the light of the
+//! vertices.
 //!
 //! A [`SceneBuffers`] holds all of it. `selection` makes the part that a camera may see, or that remains when instances
 //! are hidden. [`tiled_mesh`] draws a bake with its coarse mesh. The passes read these buffers and own none of them.

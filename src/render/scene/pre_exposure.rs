@@ -1,8 +1,9 @@
 //! Pre-exposure: the power of two that brings a scene's radiance into the range of half floats.
 //!
-//! HDR pictures are stored as half floats, which hold 6e-8 to 65,504, and a scene in real units ranges from moonlight to
-//! the sun. Every radiance is multiplied by the pre-exposure before it is stored, and the tone map divides by it again
-//! (Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering"). A power of two loses no precision.
+//! HDR pictures are stored as half floats, which hold 6e-8 to 65,504, and a scene in real units ranges from moonlight
+//! to the sun. Every radiance is multiplied by the pre-exposure before it is stored, and the tone map divides by it
+//! again (Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering"). A power of two loses no
+//! precision.
 
 use crate::baked::{BakedScene, VertexLight};
 

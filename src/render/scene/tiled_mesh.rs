@@ -1,7 +1,7 @@
 //! The coarse mesh of a bake on the device, and the part of it that a picture draws.
 //!
-//! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain is
-//! not measured.
+//! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain
+//! is not measured.
 
 use std::sync::Arc;
 

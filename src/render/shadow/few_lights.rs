@@ -1,8 +1,8 @@
 //! Up to four light samples, unshadowed or with shadow maps, that the surface pass adds itself. Depth and direct light
 //! then need no passes of their own.
 //!
-//! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain is
-//! not measured.
+//! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain
+//! is not measured.
 
 use bytemuck::Zeroable;
 

@@ -19,7 +19,8 @@ impl DifferenceHeatMap {
         Self { comparison: ShadowComparison::new(gpu) }
     }
 
-    /// Fills `texture` with the heat map between the shadows of `content` and `compared`, at half the size for a sketch.
+    /// Fills `texture` with the heat map between the shadows of `content` and `compared`, at half the size for a
+    /// sketch.
     ///
     /// Returns the share of pixels that differ; `None` if the device is lost or `content` has no shadows.
     pub fn draw(

@@ -24,8 +24,8 @@ pub struct FileWatch {
 }
 
 impl FileWatch {
-    /// Watches `path`, a file or a folder of shaders, and sends `event` after each change. Returns `None` if the system cannot
-    /// start a thread.
+    /// Watches `path`, a file or a folder of shaders, and sends `event` after each change. Returns `None` if the system
+    /// cannot start a thread.
     #[must_use]
     pub fn start(path: PathBuf, window: EventLoopProxy<UserEvent>, event: fn() -> UserEvent) -> Option<Self> {
         let on_change = move || {

@@ -25,7 +25,8 @@ struct Painted {
 }
 
 impl KeptSide {
-    /// Paints all panels over `target`. The side panel is copied from the last painting if none of its shapes has changed.
+    /// Paints all panels over `target`. The side panel is copied from the last painting if none of its shapes has
+    /// changed.
     /// `egui_wgpu::Renderer::update_buffers` must have been called for the panels.
     pub fn paint(
         &mut self,

@@ -18,15 +18,15 @@
 //!
 //! Other parts were designed for this driver but also run on hardware, where their gain is not measured:
 //!
-//! * `baked::coarse`, `render::scene::tiled_mesh`, `render::stored_light::light_tiles`: a bake is drawn as a coarse mesh
-//!   with its light in tiles of a texture. Medium bakes of cornell, gallery and zdm2 have 350, 10,000 and 73,000 triangles
-//!   instead of 20,000, 91,000 and 409,000.
-//! * `render::surface::direct_source`: up to four light samples are added by the surface pass itself, without passes for
-//!   depth and direct light.
-//! * `render::shadow::map`: the block planes of a shadow map, one read instead of a window of reads inside large triangles:
-//!   a frame of cornell with one map takes a third less.
-//! * `render::stored_light::weighted_light`: the sum over the light groups is computed when a lamp is dimmed, not for each
-//!   vertex of each picture.
+//! * `baked::coarse`, `render::scene::tiled_mesh`, `render::stored_light::light_tiles`: a bake is drawn as a coarse
+//!   mesh with its light in tiles of a texture. Medium bakes of cornell, gallery and zdm2 have 350, 10,000 and 73,000
+//!   triangles instead of 20,000, 91,000 and 409,000.
+//! * `render::surface::direct_source`: up to four light samples are added by the surface pass itself, without passes
+//!   for depth and direct light.
+//! * `render::shadow::map`: the block planes of a shadow map, one read instead of a window of reads inside large
+//!   triangles: a frame of cornell with one map takes a third less.
+//! * `render::stored_light::weighted_light`: the sum over the light groups is computed when a lamp is dimmed, not for
+//!   each vertex of each picture.
 //!
 //! Shaders follow three rules for lavapipe, which `shaders/shared/frame.wgsl` explains: no branch depends on a uniform
 //! buffer, no derivative is taken of values that are read from storage, and what is linear in a triangle is computed at

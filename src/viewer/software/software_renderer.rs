@@ -49,7 +49,8 @@ impl SoftwareRenderer {
         self.renderer.draw(gpu, encoder, target, request);
     }
 
-    /// Draws a picture of a movement, at half the width and height if that is faster, and then enlarges it into `target`.
+    /// Draws a picture of a movement, at half the width and height if that is faster, and then enlarges it into
+    /// `target`.
     pub fn sketch(
         &mut self,
         gpu: &Gpu,

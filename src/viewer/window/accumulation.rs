@@ -1,7 +1,7 @@
 //! Accumulation of soft shadows while the camera rests.
 //!
-//! The mean of the hard shadows from points of a lamp converges to its soft shadow (Haeberli and Akeley 1990). Each frame adds
-//! as many light samples as it has time for, so that the window stays responsive.
+//! The mean of the hard shadows from points of a lamp converges to its soft shadow (Haeberli and Akeley 1990). Each
+//! frame adds as many light samples as it has time for, so that the window stays responsive.
 
 use crate::render::ShadowSettings;
 use crate::render::shadow::{MOST_POINTS, SampleBatch, num_batches};

@@ -1,7 +1,8 @@
 //! The window: events of keys and mouse, actions, and frames.
 //!
 //! From the bottom: `viewer` holds everything that is open; `actions` does what keys, panels and clicks request;
-//! `next_picture` decides what a frame shows; `frame` draws it; `events` passes the events of the window to all of them;
+//! `next_picture` decides what a frame shows; `frame` draws it; `events` passes the events of the window to all of
+//! them;
 //! `app` is the application of winit.
 
 pub(super) mod app;

@@ -62,8 +62,8 @@ impl Viewer {
     /// Opens the device and begins to load the scene.
     ///
     /// # Errors
-    /// Returns an error if no graphics device can draw into the window, no thread can be started, or the frame log cannot be
-    /// written.
+    /// Returns an error if no graphics device can draw into the window, no thread can be started, or the frame log
+    /// cannot be written.
     pub fn new(window: Arc<Window>, options: &ViewerOptions, proxy: EventLoopProxy<UserEvent>) -> anyhow::Result<Self> {
         let surface = WindowSurface::new(&window)?;
         let gui = Gui::new(&window, surface.gpu.device.limits().max_texture_dimension_2d);

@@ -7,8 +7,8 @@
 //! planes are computed once for a map, which serves many pictures. Their texture has a 64th of the map's texels and
 //! fits into caches: cornell with one map takes a third less time on a software driver.
 //!
-//! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain is
-//! not measured.
+//! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain
+//! is not measured.
 
 use super::bindings::{BLOCK_PLANES_FORMAT, DEPTH_ARRAY, GATHERED, UNIFORM, entry, uniform_buffer};
 use super::cache::Map;

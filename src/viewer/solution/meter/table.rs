@@ -1,4 +1,5 @@
-//! Readings as a CSV file. The first columns are those of `hemicube measure`, so that the same points can be measured again.
+//! Readings as a CSV file. The first columns are those of `hemicube measure`, so that the same points can be measured
+//! again.
 
 use std::path::{Path, PathBuf};
 
