@@ -3,7 +3,8 @@
 // A plane in space is a plane in a map, too. Most blocks lie within a large triangle; there one comparison with the
 // plane replaces a filter over many texels (see src/render/shadow/map/block_planes.rs).
 
-// Largest deviation from the plane, as a share of its change of depth from texel to texel. It is less than the bias.
+// Largest deviation from the plane that is allowed, as a share of the plane's change of depth per texel. The deviation
+// stays below the bias.
 const TOLERANCE: f32 = 0.1;
 
 @group(0) @binding(0) var<uniform> shadow_map: ShadowMap;
@@ -27,8 +28,8 @@ fn vertex(@builtin(vertex_index) index: u32, @builtin(instance_index) layer: u32
     return Varying(position, layer, shadow_map.reach, shadow_map.inverse_resolution, shadow_map.rounding);
 }
 
-// Returns the plane's depth at texel (0, 0), its change per texel to the right and downwards, and 1 if all texels lie
-// on it.
+// Returns the plane's depth extrapolated to texel (0, 0) of the map, its change per texel to the right and downwards,
+// and 1 if all texels of the block lie on it, else 0.
 @fragment
 fn fragment(in: Varying) -> @location(0) vec4f {
     let span = BLOCK + 2u * in.reach;

@@ -74,8 +74,8 @@ impl<'a> VertexLighting<'a> {
         let mut gathered = final_gather.at(&mut *source, &viewpoints, self.observer)?;
         let mut refined = None;
         if !self.observer.is_cancelled() {
-            // A limited number of passes shows the light of that many reflections. The near-field correction would add
-            // further ones.
+            // If the user limits the passes, the result must hold the light of that many reflections only. The
+            // near-field correction would add light of further reflections.
             if self.settings.passes.is_none() {
                 final_gather.correct_near_field(&viewpoints, &lit.direct, &mut gathered);
             }
@@ -144,7 +144,7 @@ impl<'a> VertexLighting<'a> {
     }
 }
 
-/// Joins direct and gathered light: columns `[0..g]` are direct, `[g..2g]` indirect.
+/// Joins direct and gathered light: the first half of the columns is direct, the second half indirect.
 fn joined(direct: &Field, gathered: &GatheredLight) -> SampledLight {
     let columns = |l: usize| direct.at(l).iter().chain(gathered.indirect.at(l)).copied();
     let places = 0..gathered.is_valid.len();

@@ -5,7 +5,7 @@ use clap::{Args, ValueEnum};
 /// How the picture is made.
 #[derive(Args, Clone, Debug)]
 pub struct RayOptions {
-    /// How the picture is made (two-pass with stored light, and path, need no GPU).
+    /// How the picture is made. Path needs no GPU, and two-pass needs none if the file stores light.
     #[arg(long, value_enum, value_name = "RENDERER", default_value = "raster")]
     pub renderer: RendererName,
     /// Rays a pixel [default: 32 with two-pass, 256 with path].
@@ -14,8 +14,8 @@ pub struct RayOptions {
     /// With path: the largest number of reflections that a path follows [default: unlimited].
     #[arg(long, value_name = "K")]
     pub max_bounces: Option<u32>,
-    /// With two-pass: the number of rays a sample that gather indirect light at the first surface from the light stored
-    /// at the next one; 0 takes the light stored at the first surface.
+    /// With two-pass: the number of rays per sample that start at the first surface and collect the light stored where
+    /// they hit; with 0, the light stored at the first surface is used.
     #[arg(long, value_name = "N", default_value = "0", value_parser = clap::value_parser!(u32).range(0..=1 << 16))]
     pub final_gather: u32,
 }

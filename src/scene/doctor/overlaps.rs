@@ -10,7 +10,7 @@ use super::weld::Welded;
 /// Distance below which two planes count as the same, as a share of the scene's diagonal.
 const SAME_PLANE: f64 = 1e-6;
 
-/// Smallest overlap that counts, as a share of the smaller triangle's area; neighbours that only touch overlap less.
+/// Smallest overlap that counts, as a share of the smaller triangle's area; triangles that only touch stay below it.
 const MIN_SHARE: f64 = 1e-3;
 
 /// Largest number of pairs of triangles that are compared; bounds the time that a degenerate mesh takes.
@@ -40,8 +40,8 @@ pub(super) fn overlaps(welded: &Welded, diagonal: f32) -> Finding {
     Finding::counted(FindingKind::CoplanarOverlap, involved.into_iter().map(|i| Location::triangle(welded.corners(i))))
 }
 
-/// Groups triangles by plane. Each is entered under two neighbouring distances, so rounding cannot separate coplanar
-/// triangles.
+/// Groups triangles by plane. Each is entered in two grids of distances, shifted by half a cell, so rounding of the
+/// distance cannot separate coplanar triangles.
 fn planes(welded: &Welded, tolerance: f64) -> HashMap<([i32; 3], i64, bool), Vec<usize>> {
     let mut planes: HashMap<_, Vec<usize>> = HashMap::new();
     for i in 0..welded.triangles.len() {
@@ -57,7 +57,7 @@ fn planes(welded: &Welded, tolerance: f64) -> HashMap<([i32; 3], i64, bool), Vec
     planes
 }
 
-/// Returns that normal of a plane whose first non-zero component is positive.
+/// Returns the normal or its opposite, whichever has a positive first non-zero component.
 fn facing_up(normal: DVec3) -> DVec3 {
     let leading = normal.to_array().into_iter().find(|x| x.abs() > 1e-6).unwrap_or(1.0);
     if leading < 0.0 { -normal } else { normal }

@@ -11,7 +11,7 @@ use crate::viewer::solution::solved::SolvedScene;
 
 /// An event that a thread sends to the window (the user event of winit).
 pub enum UserEvent {
-    /// The worker of a run has made progress. Events of earlier runs are ignored.
+    /// The worker of a run reports. Events of earlier runs are ignored.
     Worker {
         /// Number of the run.
         run: u32,
@@ -39,7 +39,7 @@ pub enum WorkerEvent {
     MeshUploaded(UploadedScene),
     /// Newer light of the bake is on the device.
     LightUpdated,
-    /// The progress or the curve of the worker has changed.
+    /// The progress or the convergence curve has changed.
     Progress,
     /// The bake has ended; its light is on the device.
     Finished(Arc<SolvedScene>),

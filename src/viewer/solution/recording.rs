@@ -20,11 +20,11 @@ use crate::viewer::solution::solved::SolvedScene;
 
 /// Unshot share of the light at which the recording ends.
 const THRESHOLD: f32 = 0.01;
-/// Largest number of shots by each patch on average.
+/// The recording ends after this many shots per patch on average.
 const MAX_PASSES: usize = 16;
 /// Number of first shots that are stored one by one.
 const SINGLE_SHOTS: usize = 24;
-/// The distance of later moments is the number of shots so far divided by this.
+/// After n shots, the next stored moment is n / GROWTH shots later.
 const GROWTH: usize = 5;
 /// Limit on the stored light, bytes.
 const LIGHT_BYTES: usize = 192 << 20;

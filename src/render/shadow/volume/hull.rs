@@ -36,7 +36,8 @@ pub struct Hull {
     pub clockwise: Vec<u32>,
 }
 
-/// Returns the shadow volumes of the triangles whose `facing` is not zero, from a light at the homogeneous `position`.
+/// Returns the shadow volumes of the triangles from a light at the homogeneous `position`; a `facing` of 0
+/// leaves a triangle out.
 #[must_use]
 pub fn hull(casters: &Casters, facing: &[i32], position: Vec4, counting: Counting) -> Hull {
     let is_directional = position.w == 0.0;
@@ -78,9 +79,8 @@ pub fn hull_triangle_by_triangle(casters: &Casters, facing: &[i32], position: Ve
     hull
 }
 
-/// Returns the triangles at the terminator of smooth surfaces: their dark side faces away from the light, but a shading
-/// normal of that side faces it. Triangles whose front is dark are counter-clockwise, those whose back is dark
-/// clockwise.
+/// Returns the triangles at the terminator of smooth surfaces: on the side that faces away from the light, a
+/// shading normal still faces it. `counter_clockwise` lists those whose front is dark, `clockwise` those whose back is.
 ///
 /// Sides of volumes run so close to these triangles that depth cannot distinguish them. So they are darkened
 /// explicitly.
@@ -89,7 +89,8 @@ pub fn terminator(casters: &Casters, facing: &[i32], position: Vec4) -> Hull {
     let mut hull = Hull::default();
     for (triangle, &facing) in casters.triangles.iter().zip(facing).filter(|(_, facing)| **facing != 0) {
         let to_light = casters.corners(triangle).map(|corner| position.truncate() - position.w * corner);
-        // Interpolated normals and directions can face each other only if those of two corners do.
+        // An interpolated normal can face an interpolated direction only if the normal of one corner faces the
+        // direction of a corner, perhaps of another one.
         let faces_light =
             |&normal: &Vec3| to_light.iter().any(|&to_light| (normal.dot(to_light) < 0.0) == (facing > 0));
         if triangle.normals.iter().any(faces_light) {
@@ -105,14 +106,15 @@ impl Hull {
         let list = self.list(count);
         for _ in 0..count.unsigned_abs() {
             list.extend([near(a), far(a), near(b)]);
-            // The shadows of all points of a directional light converge at one point at infinity.
+            // Under a directional light all corners move to the same point at infinity, so a side is one triangle.
             if !is_directional {
                 list.extend([far(a), far(b), near(b)]);
             }
         }
     }
 
-    /// Adds the caps that close the volume of a triangle towards the light: the parts of the triangle.
+    /// Adds the caps that close the volume of a triangle towards the light: the triangle and its slivers
+    /// ([`Casters::parts`]).
     pub fn add_light_caps(&mut self, casters: &Casters, triangle: &Caster, facing: i32) {
         if facing != 0 {
             self.list(facing).extend(casters.parts(triangle).iter().flatten().map(|&corner| near(corner)));

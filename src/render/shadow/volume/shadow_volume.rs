@@ -1,7 +1,8 @@
 //! Shadow volume pass: counts in the stencil the number of volumes that each visible point is in.
 //!
-//! The volumes of a light are cached while neither light nor casters move; with the cure of z-pass they depend on the
-//! view as well. An orthographic view has a far plane, which cuts volumes off as [`VolumeSettings::far_plane`] does.
+//! The volumes of a light are cached while neither light nor casters move; with [`VolumeSettings::near_plane_cure`]
+//! those of z-pass depend on the view as well. An orthographic view has a far plane, which cuts volumes off as
+//! [`VolumeSettings::far_plane`] does.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -66,8 +67,9 @@ struct HullBuffer {
     clockwise: Range<u32>,
 }
 
-/// Corners of the casters of a scene on the device. Each is stored as (v, 0) and as (v, 1), in the order of the indices
-/// of [`Hull`].
+/// Corners of the casters of a scene on the device, in the order of the indices of [`Hull`]. Each is stored twice: with
+/// w = 0 for the corner at its own position, and with w = 1 for the corner moved to infinity. Here w is a flag and not
+/// the homogeneous coordinate.
 struct CornerBuffer(wgpu::Buffer);
 
 impl SceneData for CornerBuffer {}

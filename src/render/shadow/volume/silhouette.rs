@@ -1,8 +1,9 @@
 //! Signed edge counts: determine which edges are the outline of the casters, seen from a light.
 //!
-//! Each triangle t is oriented so that it faces the light: f_t = +1 if its front does, -1 if its back does. A triangle
-//! t at edge e runs along it in the direction d = +1 or -1. The count of the edge is the sum over its triangles (Kim,
-//! Kim and Turk 2008, "A shadow-volume algorithm for opaque and transparent nonmanifold casters"):
+//! Each triangle t is oriented so that it faces the light: f_t = +1 if its front does, -1 if its back does. The order
+//! of its corners passes an edge e from the lower to the higher index (d = +1) or back (d = -1). The count of the edge
+//! is the sum over its triangles (Kim, Kim and Turk 2008, "A shadow-volume algorithm for opaque and transparent
+//! nonmanifold casters"):
 //!
 //! ```text
 //! c_e = sum over the triangles t at e of  d_{t,e} f_t
@@ -30,7 +31,8 @@ pub fn facing(casters: &Casters, position: Vec4) -> Vec<i32> {
     casters.triangles.par_iter().map(of).collect()
 }
 
-/// Returns the signed count of an edge: how often it has a side, and in which direction by sign.
+/// Returns the signed count of an edge: its absolute value is the number of sides at the edge, its
+/// sign their direction.
 pub fn count(casters: &Casters, edge: &Edge, facing: &[i32]) -> i32 {
     let sides = &casters.sides[edge.sides.start as usize..edge.sides.end as usize];
     sides.iter().map(|side| side.direction * facing[side.triangle as usize]).sum()

@@ -2,7 +2,7 @@
 
 use gltf::json::mesh::Mode;
 
-/// Returns the corners of the triangles that `mode` forms of vertices in this order.
+/// Returns the corners of the triangles that `mode` forms from the vertices listed in `order`.
 ///
 /// Source: glTF 2.0, section 3.7.2.1.
 pub(crate) fn triangulate(mode: Mode, order: &[u32]) -> Vec<[u32; 3]> {
@@ -19,7 +19,7 @@ pub(crate) fn triangulate(mode: Mode, order: &[u32]) -> Vec<[u32; 3]> {
     }
 }
 
-/// Renumbers corners over the used vertices only, and returns the rows of these vertices in file order.
+/// Renumbers corners over the used vertices only, and returns the old indices of these vertices, ascending.
 ///
 /// # Errors
 /// Returns the first index that is not below `num_vertices`.

@@ -22,7 +22,7 @@ fn live(facts: Facts<'static>) -> Harness<'static, Fixture> {
 /// Chooses `entry` of the combo box `list`.
 fn choose(window: &mut Harness<'static, Fixture>, list: &str, entry: &str) {
     click(window, list);
-    // The combo box may show the same text.
+    // If the closed combo box shows the same text, the entry of the list is the last match.
     window.get_all_by_label(entry).last().expect("an entry").click();
     window.run_steps(3);
 }

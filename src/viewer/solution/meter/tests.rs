@@ -1,4 +1,4 @@
-//! Readings compared with `measure`, grids with closed forms, and the table.
+//! Tests: a reading equals that of `measure`; a grid lies on its surface and its statistics agree; the table.
 
 use std::sync::{Arc, OnceLock};
 
