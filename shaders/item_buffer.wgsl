@@ -29,7 +29,7 @@ struct Cutout {
     // Wrap mode of u in the low half, of v in the high half: 0 repeat, 1 mirror, 2 clamp.
     wrap: u32,
     alpha_factor: f32,
-    // Smallest solid alpha. If it is negative, the surface lets the share 1 - alpha of the light pass.
+    // Smallest alpha that counts as solid. If it is negative, the surface lets the share 1 - alpha of the light pass.
     cutoff: f32,
 }
 

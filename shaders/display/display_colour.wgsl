@@ -8,7 +8,7 @@ override TARGET_ENCODES: bool = false;
 // Returns the value of the target for a linear display colour.
 fn displayed(colour: vec3f, pixel: vec2f) -> vec4f {
     let encoded = srgb_from_linear(saturate(colour));
-    // Noise of half a step hides the steps of eight bits. It leaves a colour that is exactly a step unchanged.
+    // Noise of half a step hides the steps of eight bits. A colour that is exactly one of these steps stays unchanged.
     let dithered = saturate(encoded + gradient_noise(pixel) / 255.0);
     return vec4f(select(dithered, linear_from_srgb(dithered), TARGET_ENCODES), 1.0);
 }

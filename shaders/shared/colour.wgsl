@@ -1,4 +1,4 @@
-// Linear Rec. 709 colour and its sRGB encoding (IEC 61966-2-1), as src/base/colour.rs.
+// Linear Rec. 709 colour and its sRGB encoding (IEC 61966-2-1), as in src/base/colour.rs.
 
 fn luminance(colour: vec3f) -> f32 {
     return dot(colour, vec3f(0.2126, 0.7152, 0.0722));

@@ -4,8 +4,8 @@
 // 1. No branch depends on a uniform buffer. lavapipe compiles a shader again for each value of a uniform that branches
 //    depend on, and keeps every version. Values that select branches are in a storage buffer or are constants
 //    of the pipeline.
-// 2. No derivative is taken of a value that depends on storage. Derivatives also read pixels outside the triangle, for
-//    which lavapipe loads zero.
+// 2. No derivative is taken of a value that is loaded from storage. Derivatives also read pixels outside the triangle,
+//    and for these lavapipe loads zero.
 // 3. Where possible, vertices pass values of a uniform buffer on to their pixels. A fragment shader loads each number
 //    for each pixel again, which takes as long as ten additions.
 
@@ -30,9 +30,9 @@ struct Frame {
     num_vertices: u32,
     // Factor from the summed irradiance of the lights themselves to the radiance of white paint.
     live: f32,
-    // Homogeneous: the eye with w = 1, or the direction towards it with w = 0.
+    // Homogeneous position of the eye: a point with w = 1, or the direction towards an infinitely far eye with w = 0.
     eye: vec4f,
-    // Scale of false colours: low and high end in lux, 1 if logarithmic, number of parts between lines.
+    // Scale of false colours: lower and upper end in lux, 1 if it is logarithmic, number of parts between lines.
     lux_scale: vec4f,
 }
 

@@ -1,4 +1,4 @@
-// Surface pass: what vertices pass to pixels.
+// Surface pass: the values that vertices pass to pixels.
 
 const IS_TILED: bool = false;
 

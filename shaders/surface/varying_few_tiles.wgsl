@@ -1,4 +1,5 @@
-// Surface pass: what vertices pass to pixels that add the direct light of a few light samples to light in tiles.
+// Surface pass: the values that vertices pass to pixels. The pixels add the direct light of a few light samples to
+// light in tiles.
 
 const IS_TILED: bool = true;
 

@@ -1,4 +1,4 @@
-// Surface pass: what vertices pass to pixels whose light is in tiles.
+// Surface pass: the values that vertices pass to pixels whose light is in tiles.
 
 const IS_TILED: bool = true;
 

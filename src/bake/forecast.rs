@@ -8,8 +8,8 @@ use crate::scene::{Scene, Triangle, Vertex};
 /// Memory of the program, the driver and their buffers, bytes.
 const PROGRAM: usize = 82 << 20;
 
-/// Memory of a software driver that draws hemicubes, its shader compiler and the atlases, bytes; and per triangle the
-/// memory of the driver and of the index lists.
+/// Memory for drawing hemicubes with a software driver, bytes. `DRAWING` is that of the driver, its shader compiler and
+/// the atlases, `DRAWN_TRIANGLE` that of the driver and of the index lists per triangle.
 const DRAWING: usize = 140 << 20;
 const DRAWN_TRIANGLE: usize = 2200;
 

@@ -57,7 +57,7 @@ impl MeasureSettings {
 /// A scene with its light, and an observer of the measurement.
 #[derive(Clone, Copy)]
 pub struct MeasureContext<'a> {
-    /// The scene that was baked, or the scene of the bake; direct light is computed in it.
+    /// The scene in which direct light is computed: the original scene, or the scene of elements that the bake made.
     pub scene: &'a Scene,
     /// The mesh of `scene`.
     pub mesh: &'a PatchMesh,

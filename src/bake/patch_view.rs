@@ -16,7 +16,7 @@ use crate::patch::{MeshError, MeshSettings, PatchMesh};
 pub struct PatchView {
     /// Width and height, pixels: twice the width of the hemicube.
     pub size: [u32; 2],
-    /// The element of the bake in view of each pixel `[pixel]`, if any.
+    /// The element of the bake that each pixel shows, if any `[pixel]`.
     pub items: Vec<Option<u32>>,
     /// Linear radiance `[pixel]`; the fourth channel is 0 if no element is in view.
     pub radiance: Vec<[f32; 4]>,

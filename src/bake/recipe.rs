@@ -52,13 +52,14 @@ pub fn bake(scene: &Scene, settings: &BakeSettings) -> Result<Bake, BakeError> {
     bake_with(scene, settings, &BakeContext::default())
 }
 
-/// Bakes a scene with a device, kept rows of form factors, or an observer.
+/// Bakes a scene with a device, stored rows of form factors, or an observer.
 ///
 /// After a cancel it returns the solution so far, with averages of the elements in place of gathered light.
 ///
 /// # Errors
 /// Returns an error if the scene has no triangles or no light or would need too many elements, if hemicubes are
-/// requested without a device, or if the device fails. A row cache that cannot be written costs time and is no error.
+/// requested without a device, or if the device fails. A row cache that cannot be written is not an error; it only
+/// costs time.
 pub fn bake_with(scene: &Scene, settings: &BakeSettings, context: &BakeContext<'_>) -> Result<Bake, BakeError> {
     if scene.light_groups.is_empty() {
         return Err(BakeError::NoLight(scene.name.clone()));
@@ -76,7 +77,7 @@ pub fn bake_with(scene: &Scene, settings: &BakeSettings, context: &BakeContext<'
     clock.end_stage(Stage::Mesh);
 
     // 2. Compute direct light at the vertices for display, with more vertices where it changes. Compute it also on the
-    // elements, whose reflection the solver distributes.
+    // elements, because the solver distributes the light that they reflect.
     let viewpoints = Viewpoints::new(scene);
     let tracer = Tracer::new(scene);
     let lights = DirectLight::new(scene, &mesh, &tracer, settings.sampling.num_penumbra_rays);

@@ -62,7 +62,7 @@ impl Bounds {
         0.5 * (self.low + self.high)
     }
 
-    /// Returns half of its surface area, which the surface area heuristic compares.
+    /// Returns half of its surface area, as used by the surface area heuristic.
     #[must_use]
     pub fn half_area(&self) -> f32 {
         let size = self.size();

@@ -1,4 +1,4 @@
-//! Indices as distinct types, so that the compiler refuses the index of a patch for an element.
+//! Indices as distinct types, so that the compiler refuses the index of a patch where that of an element is required.
 
 macro_rules! id {
     ($(#[$doc:meta])* $name:ident) => {

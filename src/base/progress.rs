@@ -42,7 +42,7 @@ impl Stage {
 pub trait Progress: Sync {
     /// Reports that the share `done` of the stage's work, 0..1, is complete.
     fn report(&self, stage: Stage, done: f32);
-    /// Returns true if the work has to stop at its next step and return its partial result.
+    /// Returns true if the work must stop at its next step and return its partial result.
     fn is_cancelled(&self) -> bool;
     /// Blocks while the caller needs the processor, as the viewer does while it draws.
     fn rest(&self) {}

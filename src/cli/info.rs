@@ -1,4 +1,4 @@
-//! `hemicube info`: what is in a scene, and what the mesh doctor finds.
+//! `hemicube info`: prints the contents of a scene and the findings of the mesh doctor.
 
 use std::fmt::{self, Write as _};
 use std::io::{ErrorKind, Write as _};

@@ -1,9 +1,9 @@
 //! Form factors by the hemisphere method: Nusselt's analogue with rays, on the CPU alone.
 //!
 //! Nusselt's analogue: project a surface on to the unit hemisphere around the viewpoint and from there orthogonally on
-//! to the base circle; its form factor is the share of the circle that it covers. Points spread evenly over the circle
-//! are therefore directions of equal weight 1/N (their density is cos theta / pi), and the form factor of an element is
-//! the share of the N rays that hit it.
+//! to the base circle; its form factor is the share of the circle that this projection covers. Points spread
+//! evenly over the circle are therefore directions of equal weight 1/N (their density is cos theta / pi), and the form
+//! factor of an element is the share of the N rays that hit it.
 //!
 //! All viewpoints share one table of points. Each viewpoint rotates it about its normal and shifts the radii modulo 1,
 //! so the errors of neighbours are not correlated. The points are sorted along a space-filling curve, so consecutive

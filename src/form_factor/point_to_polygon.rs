@@ -1,8 +1,8 @@
 //! Form factor from a point to a polygon in closed form, without occlusion: Lambert's contour integral.
 //!
-//! By Stokes' theorem the integral of cos theta_x cos theta_y / (pi r^2) over a polygon becomes one along its outline,
-//! and each edge contributes the angle it subtends times the cosine between the normal and the plane through the edge
-//! and the point.
+//! By Stokes' theorem the integral of cos theta_x cos theta_y / (pi r^2) over a polygon becomes an integral along its
+//! outline. Each edge contributes the angle that it subtends times the cosine between the normal at the point and the
+//! normal of the plane through the edge and the point.
 //!
 //! Source: Lambert 1760, "Photometria"; Baum, Rushmeier, Winget 1989, section 4 (the contour sum as used for
 //! radiosity).

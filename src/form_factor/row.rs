@@ -15,7 +15,8 @@ pub struct Viewpoint {
     pub seed: u32,
 }
 
-/// A viewpoint that sees a larger share of back faces lies inside a solid. One behind a single-sided sheet sees 0.5.
+/// If the share of back faces in the view of a viewpoint is larger than this, the viewpoint lies inside a solid. Behind
+/// a single-sided sheet the share is 0.5.
 pub const MAX_BACK_SHARE: f32 = 0.8;
 
 /// Form factors from one viewpoint: all entries, `backs` and `sky` sum to 1.

@@ -73,7 +73,7 @@ pub trait FormFactorSource {
     fn num_samples(&self) -> usize;
 }
 
-/// Maps the rows of `viewpoints`, in order; shorter than `viewpoints` if `may_continue` returned false.
+/// Maps the rows of `viewpoints`, in order. The result is shorter than `viewpoints` if `may_continue` returned false.
 ///
 /// # Errors
 /// Returns an error if the source fails.

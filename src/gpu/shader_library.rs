@@ -37,8 +37,8 @@ impl ShaderLibrary {
 
     /// Returns the text of a shader, and registers the shader as in use.
     ///
-    /// This is the built-in text if there is no folder, or if the files there are missing or invalid; the log has the
-    /// reason.
+    /// The text is the built-in one if there is no folder, or if the files there are missing or invalid; the log has
+    /// the reason.
     pub(super) fn text_of(&self, shader: Shader) -> String {
         let mut state = self.state();
         if let Some(known) = state.in_use.iter().find(|known| known.shader.is(&shader)) {

@@ -3,7 +3,7 @@
 /// The kind of device that draws.
 ///
 /// It selects the method, not the result: the viewer draws moving views with fewer samples (`viewer::software`), and a
-/// bake prefers rays to item buffers (`bake::method`). No other code depends on the type of the adapter.
+/// bake prefers rays to item buffers (`bake::Method`). No other code depends on the type of the adapter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tier {
     /// A graphics card, including integrated and virtual ones.

@@ -3,7 +3,7 @@
 //! For programs that read light from a texture: the scene as it was loaded is unwrapped (`layout`), each element is
 //! drawn where its part of the scene lies in the texture, with its light interpolated between the vertices (`pieces`,
 //! `texels`), and the result is compared with the light at the vertices (`deviation`). Deliberately absent: files
-//! ([`crate::baked::gltf`]), and the unwrapping itself, which is that of a crate.
+//! ([`crate::baked::gltf`]), and the unwrapping itself, which a crate does.
 
 mod deviation;
 mod layout;

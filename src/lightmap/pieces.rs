@@ -55,8 +55,8 @@ impl Flattening {
         mesh.corners(element).map(|place| self.at(place.as_dvec3()))
     }
 
-    /// Maps a position by barycentric coordinates from the normal equations, which project it on to the plane of the
-    /// triangle.
+    /// Maps a position by its barycentric coordinates. The normal equations, from which they are computed, project the
+    /// position on to the plane of the triangle.
     fn at(&self, place: DVec3) -> DVec2 {
         let ([u, v], d) = (self.edges, place - self.corner);
         let (uu, uv, vv, du, dv) = (u.dot(u), u.dot(v), v.dot(v), d.dot(u), d.dot(v));

@@ -11,7 +11,7 @@ pub struct LightmapSettings {
     pub max_side: u32,
 }
 
-/// Texels along the longest edge of an element. Elements at the edges of shadows are up to 32 times as short.
+/// Texels along the longest edge of an element. Elements at the edges of shadows are up to 32 times shorter.
 const TEXELS_AN_ELEMENT: f32 = 16.0;
 
 /// Largest texture that every graphics card supports.

@@ -14,8 +14,8 @@ use super::mesh::{Element, Patch, PatchMesh};
 use crate::base::ids::{ElementId, PatchId};
 use crate::scene::{Scene, normal_of};
 
-/// Scale of the cube from -1 to 1 on which normals are binned by rounding: 3 x 3 bins a face, each about 40 degrees
-/// wide.
+/// Scale of normals on the cube from -1 to 1, before they are rounded to bins: 3 x 3 bins per face, each about 40
+/// degrees wide.
 const NORMAL_CELLS: f32 = 1.5;
 
 /// Cell size of a grid, relative to the patch size. Elements whose centroids share a cell are joined even without a

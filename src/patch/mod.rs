@@ -5,7 +5,7 @@
 //!
 //! * `mesh`: the mesh itself. `cut`: turns a scene into a mesh.
 //! * `subdivide`: bisection of triangles into elements; `tree`: the bisection trees; `splits`: edges to bisect beyond
-//!   the element size; `propagate`: what keeps the mesh conforming then.
+//!   the element size; `propagate`: further edges to bisect so that the mesh stays conforming.
 //! * `optics`: reflectance and exitance of elements. `cluster`: elements into patches.
 
 mod cluster;

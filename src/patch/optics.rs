@@ -38,7 +38,7 @@ fn evaluate_element(element: &mut Element, vertices: &[Vertex], scene: &Scene) {
         reflected += point.opacity * point.reflectance;
         emitted += point.opacity * point.emission;
     }
-    // A ray or pixel may still hit an element whose samples are all holes, so its area is not 0.
+    // The area is never 0, because a ray or pixel may still hit an element whose samples are all holes.
     let solid = solid.max(0.5);
     element.area = area_of(corners.map(|v| v.position)) * solid / num_samples as f32;
     element.reflectance = reflected / solid;

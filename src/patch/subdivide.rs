@@ -1,9 +1,9 @@
-//! Elements by longest-edge bisection.
+//! Divides triangles into elements by longest-edge bisection.
 //!
 //! A triangle whose longest edge exceeds the element size is halved at the midpoint of that edge, and so are its
-//! halves. Every edge that is too long is thereby split at its midpoint in both triangles that share it, so the mesh
-//! stays conforming although each triangle is cut by itself, and no angle falls below half the smallest angle of the
-//! input.
+//! halves. Every edge that is too long is thereby split at its midpoint in both triangles that share it. So the mesh
+//! stays conforming although each triangle is cut independently. No angle is smaller than half the smallest angle of
+//! the input.
 //!
 //! Source: Rivara 1984, "Algorithms for refining triangular grids"; Baum, Mann, Smith, Winget 1991 (why T-vertices
 //! hurt).
@@ -21,7 +21,7 @@ use crate::scene::{Scene, Vertex};
 /// Largest number of elements: an id must fit in a node beside the depth and the kind.
 const MAX_ELEMENTS: usize = 1 << 26;
 
-/// Deepest regular tree that a node can hold.
+/// Largest depth of a regular tree that fits in a node.
 const MAX_REGULAR_DEPTH: u32 = 15;
 
 /// Reasons why a scene cannot be cut.
@@ -38,8 +38,8 @@ pub enum MeshError {
     Empty,
 }
 
-/// Cuts all triangles of the scene, at edges longer than the element size or among `splits`. Leaves optics and patches
-/// of the elements blank.
+/// Cuts all triangles of the scene at the edges that are longer than the element size or in `splits`. Optics and
+/// patches of the elements are not yet set.
 pub(super) fn subdivide(scene: &Scene, element_size: f32, splits: &Splits) -> Result<PatchMesh, MeshError> {
     if scene.triangles.is_empty() {
         return Err(MeshError::Empty);
@@ -128,7 +128,7 @@ impl<'a> Cutter<'a> {
         }
     }
 
-    /// Adds the backs of front elements, over copies of their vertices with flipped normals.
+    /// Adds the back faces of elements. Their vertices are copies with flipped normals.
     fn add_backs(&mut self, fronts: std::ops::Range<usize>, corners: [u32; 3]) {
         for corner in corners {
             self.flipped_copy(corner);
@@ -197,7 +197,7 @@ impl<'a> Cutter<'a> {
     }
 }
 
-/// The corner opposite the longest edge, and that edge's squared length.
+/// Returns the corner opposite the longest edge, and the squared length of that edge.
 pub(super) fn longest_edge(at: [Vec3; 3]) -> (usize, f32) {
     let squared = [0, 1, 2].map(|k| at[(k + 1) % 3].distance_squared(at[(k + 2) % 3]));
     let apex = if squared[0] >= squared[1] && squared[0] >= squared[2] {

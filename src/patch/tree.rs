@@ -26,12 +26,12 @@ impl Node {
         Self(children << 2 | (apex as u32 + 1))
     }
 
-    /// First element and depth of a regular tree. `None` for a node that is split otherwise.
+    /// First element and depth of a regular tree. `None` for a node that is not regular.
     pub(crate) fn as_regular(self) -> Option<(u32, u32)> {
         (self.0 & 3 == 0).then_some((self.0 >> 6, self.0 >> 2 & 15))
     }
 
-    /// Apex and index of the first of two children of a node that is not regular.
+    /// Apex of a node that is not regular, and index of the first of its two children.
     pub(crate) fn as_split(self) -> Option<(usize, usize)> {
         (self.0 & 3 != 0).then(|| ((self.0 & 3) as usize - 1, (self.0 >> 2) as usize))
     }

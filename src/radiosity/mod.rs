@@ -14,7 +14,7 @@
 //! | where | [`Viewpoints`] | points slightly above patches, elements and vertices |
 //! | direct light | [`direct`] | exact formulas and visibility rays |
 //! | finer elements | [`adaptive_subdivision`] | edges are halved where light is not linear |
-//! | indirect light of patches | [`solver`] | progressive refinement, Jacobi iteration or the full matrix, over kept rows |
+//! | indirect light of patches | [`solver`] | progressive refinement, Jacobi iteration or full matrix, on stored rows |
 //! | indirect light of vertices | [`gather`] | final gather with an irradiance cache |
 //! | result | [`reconstruction`] | from light vertices to the mesh that is drawn |
 //!

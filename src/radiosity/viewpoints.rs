@@ -15,11 +15,12 @@ use crate::scene::{Scene, normal_of};
 /// detail.
 const HEIGHT: f32 = 2e-5;
 
-/// Share of the way from a vertex to the middle of the elements around it by which its viewpoint is moved. A vertex in
-/// a corner of a room lies exactly in the other wall, but its viewpoint must not.
+/// A viewpoint is moved by this share of the way from its vertex to the middle of the elements around the vertex. A
+/// vertex in a corner of a room lies exactly in the other wall, but its viewpoint must not.
 const INSET: f32 = 0.05;
 
-/// Smallest cosine between a shading normal and the normal of an element at which the viewpoint is lifted above it.
+/// Smallest cosine between a shading normal and the normal of an element at which the viewpoint is lifted above the
+/// element.
 const MIN_COSINE: f32 = 0.1;
 
 /// Places viewpoints at a fixed height above the surfaces of one scene.

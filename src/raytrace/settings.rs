@@ -40,7 +40,7 @@ impl Default for TwoPassSettings {
     }
 }
 
-/// Source of the light at a surface beyond traced direct light.
+/// Source of the light at a surface, in addition to traced direct light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Ambient {
     /// No ambient light.
@@ -49,8 +49,8 @@ pub enum Ambient {
     Constant(Vec3),
     /// The indirect light of the bake.
     Indirect {
-        /// Number of rays of the final gather at the first diffuse surface, which use the light stored at the next one.
-        /// 0 uses the light stored at the first.
+        /// Number of rays of the final gather at the first diffuse surface. Each uses the light stored at the surface
+        /// that it hits. With 0, the light stored at the first surface is used.
         final_gather: u32,
     },
     /// All light of the bake, direct light included; lights are not traced.

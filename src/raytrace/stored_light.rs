@@ -20,7 +20,7 @@ pub(crate) struct CausticLight {
 /// Stored irradiance, the sum of all light groups.
 pub(crate) struct StoredLight<'a> {
     scene: &'a Scene,
-    /// Straight from the lights `[v]`, lux per channel.
+    /// Irradiance straight from the lights `[v]`, lux per channel.
     direct: Vec<Vec3>,
     /// Irradiance after at least one reflection `[v]`.
     indirect: Vec<Vec3>,

@@ -1,6 +1,6 @@
-//! Overlay: lines and tinted faces over a finished picture, hidden by the surfaces before them.
+//! Overlay: lines and tinted faces over a finished picture, hidden by the surfaces in front of them.
 //!
-//! It draws the depth of the scene again with one sample a pixel. So pictures without marks cost nothing.
+//! It draws the depth of the scene again, with one sample a pixel. Only pictures with marks have this cost.
 
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;

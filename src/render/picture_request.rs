@@ -32,8 +32,8 @@ pub enum MeteredExposure {
     /// This picture: it is drawn as radiance, metered, and then tone mapped.
     #[default]
     OfThis,
-    /// The picture before it, as in a movement. With one sample a pixel and no surface that blends, the surface pass
-    /// then writes display colours directly, which is faster.
+    /// The picture before it, as while the camera moves. With one sample a pixel and no surface that blends, the
+    /// surface pass then writes display colours directly, which is faster.
     OfLast,
 }
 

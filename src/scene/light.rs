@@ -64,8 +64,8 @@ pub struct Arrival {
 }
 
 impl Light {
-    /// Returns a light without name, range limit and profile, in light group 0; `intensity` in candela, for a
-    /// directional one in lux.
+    /// Returns a light without name, range limit and profile, in light group 0. `intensity` is in candela, or in lux
+    /// for a directional light.
     #[must_use]
     pub fn new(kind: LightKind, intensity: Vec3) -> Self {
         Self { name: String::new(), kind, intensity, range: None, profile: None, group: GroupId(0) }
@@ -91,10 +91,11 @@ impl Light {
         Self::new(LightKind::Directional { direction }, illuminance)
     }
 
-    /// Returns the light that arrives at `point` if no surface blocks it, before the cosine of the receiver.
+    /// Returns the light that arrives at `point` if no surface blocks it, without the cosine factor of the receiver.
     ///
-    /// E = I / r^2 x a x w, where a is the attenuation by the spot's cone, or the relative intensity of the photometric
-    /// profile, and w = clamp(1 - (r / range)^4, 0, 1) brings the light to zero at its range.
+    /// For point and spot lights, E = I / r^2 x a x w, where a is the attenuation by the spot's cone, or the relative
+    /// intensity of the photometric profile, and w = clamp(1 - (r / range)^4, 0, 1) brings the light to zero at its
+    /// range.
     ///
     /// Source: KHR_lights_punctual, sections "Inner and Outer Cone Angles" and "Range Property".
     #[must_use]

@@ -77,7 +77,7 @@ pub struct ElementRecord {
     pub version: u64,
     /// Bisection trees of the triangles, as text; `None` if the record has none.
     pub trees: Option<String>,
-    /// Number of instances from that of the fronts to this one, if the triangles are backs; `None` if they are not.
+    /// If the triangles are backs, the number of instances from the instance of their fronts to this one; else `None`.
     pub back_of: Option<usize>,
 }
 
@@ -115,7 +115,7 @@ impl Scene {
     }
 
     /// Returns the triangle that stores the light of the front or back side of `front`, and the barycentric coordinates
-    /// in it of the point with `weights` in the front.
+    /// in that triangle of the point whose coordinates in `front` are `weights`.
     #[must_use]
     pub fn on_side(&self, front: TriangleId, weights: Vec3, is_front: bool) -> (TriangleId, Vec3) {
         match self.sides.back_of(front) {

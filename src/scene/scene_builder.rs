@@ -114,7 +114,7 @@ impl SceneBuilder {
         self
     }
 
-    /// Adds a box with half edges `half`, rotated by `rotation` about its centre; its six sides face outwards.
+    /// Adds a box whose edges are twice as long as `half`, rotated by `rotation` about its centre. Sides face outwards.
     pub fn block(&mut self, centre: Vec3, half: Vec3, rotation: Quat, material: MaterialId) -> &mut Self {
         let p = |x: f32, y: f32, z: f32| centre + rotation * (half * Vec3::new(x, y, z));
         let sides = [

@@ -63,7 +63,7 @@ pub fn normal_of(corners: [Vec3; 3]) -> Vec3 {
     edge_cross(corners).normalize_or_zero()
 }
 
-/// Returns true if the triangle has no usable area: its height is within rounding of its longest edge.
+/// Returns true if the triangle has no usable area: its height is tiny compared with its longest edge.
 #[must_use]
 pub(crate) fn is_degenerate(corners: [Vec3; 3]) -> bool {
     /// Height, as a share of the longest edge, below which a triangle is degenerate.

@@ -70,8 +70,8 @@ impl<'a> Tracer<'a> {
     }
 
     /// Returns the nearest surface like [`Tracer::nearest`], where `solid_from` gives for each triangle the smallest
-    /// opacity that counts as solid, above 0. If it is uniformly random in 0..1, the probability that a surface stops a
-    /// ray equals its opacity.
+    /// opacity that counts as solid, above 0. If this opacity is uniformly random in 0..1, the probability that a
+    /// surface stops a ray equals its opacity.
     #[must_use]
     pub fn nearest_solid(
         &self,

@@ -1,6 +1,6 @@
 //! Floor 6: the window that shows a scene, from a camera that walks or flies, while its light is solved.
 //!
-//! Rooms, from the bottom; each imports only rooms above it in this list:
+//! Rooms, the most basic first; each imports only rooms that come before it in this list:
 //!
 //! | room | what |
 //! |---|---|

@@ -1,10 +1,10 @@
-//! What the window opens with.
+//! Options with which the window opens.
 
 use std::path::PathBuf;
 
 use crate::bake::BakeSettings;
 
-/// What the window opens with.
+/// Options with which the window opens.
 #[derive(Clone, Debug)]
 pub struct ViewerOptions {
     /// The glTF file; `None` opens the built-in scene.

@@ -1,5 +1,5 @@
-// Cut-out shadow pass: keeps the visible points whose line to the light hits a solid place of a caster with holes, and
-// discards the others.
+// Cut-out shadow pass: keeps the visible points whose line to the light hits an opaque part of a caster with holes,
+// and discards the others.
 
 struct CutoutCorner {
     // Position, metres.
@@ -23,7 +23,7 @@ struct CutoutNode {
 
 const NO_TRIANGLE: u32 = 0xffffffffu;
 
-// Three corners a triangle.
+// Three corners per triangle.
 @group(3) @binding(0) var<storage, read> cutouts: array<CutoutCorner>;
 @group(3) @binding(1) var<storage, read> nodes: array<CutoutNode>;
 
@@ -47,8 +47,8 @@ fn fragment(in: VisiblePoint) {
     while at < arrayLength(&nodes) {
         let node = nodes[at];
         if !is_crossed(node, origin, inverse, reach) {
-            // Software drivers also run pixels outside the triangle, and their loads return zero. The maximum ends
-            // their loop.
+            // Software drivers also run the shader for pixels outside the triangle, where loads return zero. The
+            // maximum ends the loop of these pixels.
             at = max(node.skip, at + 1u);
             continue;
         }
@@ -74,7 +74,7 @@ fn towards_eye(point: vec3f) -> vec3f {
     return frame.eye.xyz - frame.eye.w * point;
 }
 
-// Returns true if the line from `origin` to the light hits a solid place of the triangle (Moeller and Trumbore 1997).
+// Returns true if the line from `origin` to the light hits an opaque part of the triangle (Moeller and Trumbore 1997).
 fn is_stopped(first: u32, origin: vec3f, to_light: vec3f) -> bool {
     let corner = cutouts[first].position;
     let edge_1 = cutouts[first + 1u].position - corner;

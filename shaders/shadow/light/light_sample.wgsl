@@ -41,7 +41,7 @@ struct LightSample {
 
 // A visible point in light space.
 struct Receiver {
-    // Vector from the light to the point, metres; for a directional light, from the origin.
+    // Vector from the light to the point, metres; for a directional light, from the origin of light space.
     from_light: vec3f,
     // Vector along the normal of its triangle on the visible side, of any length.
     facet: vec3f,

@@ -131,7 +131,8 @@ fn cube_face(direction: vec3f) -> u32 {
     return select(4u, FACE_AHEAD, direction.z < 0.0);
 }
 
-// Returns right, up and ahead in the camera of a face: the coordinates in another order and with other signs.
+// Returns a vector along the axes of a face's camera (right, up, ahead): its coordinates in another order and with
+// other signs.
 fn on_face(face: u32, v: vec3f) -> vec3f {
     let s = select(1.0, -1.0, (face & 1u) == 1u);
     let along_x = vec3f(s * v.z, v.y, s * v.x);

@@ -1,7 +1,7 @@
 // Shadow volume pass: draws the volumes that the stencil counts.
 //
 // A corner v is drawn at its own position, or moved away from the light (L, w) to infinity: (v w - L, 0). The reversed
-// infinite projection maps w = 0 to depth 0 exactly. So no far plane clips anything, and z-fail has its caps at
+// infinite projection maps w = 0 to depth 0 exactly. So no far plane clips anything, and the far caps of z-fail are at
 // infinity (Everitt and Kilgard 2002).
 
 const INFINITELY_FAR: f32 = 1.0;

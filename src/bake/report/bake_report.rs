@@ -16,7 +16,7 @@ use crate::scene::Scene;
 /// Counts, balances and times of a bake. In JSON the fields of its parts lie side by side, in this order.
 #[derive(Clone, Debug, Serialize)]
 pub struct Report {
-    /// What was baked, and how.
+    /// Scene and method of the bake.
     #[serde(flatten)]
     pub configuration: Configuration,
     /// Sizes of the scene and of its final mesh.
@@ -30,7 +30,7 @@ pub struct Report {
     /// Measures of the quality of the solution.
     #[serde(flatten)]
     pub certificate: Certificate,
-    /// Seconds by stage.
+    /// Duration of each stage, seconds.
     pub seconds: Seconds,
     /// Memory, bytes.
     pub memory_bytes: Memory,
@@ -103,7 +103,7 @@ pub struct Work {
     pub shots: usize,
     /// Shots per patch, Jacobi passes (pass n adds the light of the n-th reflection) or Gauss-Seidel sweeps.
     pub passes: usize,
-    /// Share of the first reflected power that was not shot.
+    /// Share of the power of the first reflection that was not shot.
     pub unshot_share: f64,
     /// True if the bake was cancelled before its end.
     pub cancelled: bool,
@@ -112,7 +112,7 @@ pub struct Work {
 /// Measures of the quality of a solution.
 #[derive(Clone, Debug, Serialize)]
 pub struct Certificate {
-    /// Share of the patches' views that ends on surfaces that receive light.
+    /// Share of the patches' views in which a surface that receives light is visible.
     pub closure: Closure,
     /// Deviation of the form factors between patches from reciprocity, A_i F_ij = A_j F_ji.
     pub reciprocity_residual: f64,

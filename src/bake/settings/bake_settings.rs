@@ -7,7 +7,7 @@ use crate::radiosity::gather::FinalGatherSettings;
 use crate::radiosity::solver::progressive::ProgressiveSettings;
 use crate::scene::Scene;
 
-/// How a scene is baked: the choices of a user, and the numbers of a preset behind them.
+/// How a scene is baked: the choices of a user, and the numbers of a preset.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BakeSettings {
     /// The preset that the other values are based on.
@@ -18,10 +18,10 @@ pub struct BakeSettings {
     pub method: Option<Method>,
     /// Solver of the system of patches.
     pub solver: Solver,
-    /// Progressive: shots per patch, on average, after which shooting ends (`None`: 64). Gathering: number of passes
-    /// (`None`: until the light converges).
+    /// Progressive refinement: average number of shots per patch after which shooting ends (`None`: 64). Gathering:
+    /// number of passes (`None`: until the light converges).
     pub passes: Option<usize>,
-    /// Share of the first unshot power at which shooting ends.
+    /// Shooting ends when the unshot power is this share of its initial value.
     pub threshold: f32,
     /// Width of the hemicubes of the final gather, pixels.
     pub hemicube_px: u32,
@@ -47,14 +47,15 @@ pub struct MeshBudget {
 /// How elements are subdivided where light is not linear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refinement {
-    /// Deviation of the light at an edge's midpoint from the mean of its ends at which the edge is halved, relative to
-    /// the light there; 0 halves none.
+    /// An edge is halved if the light at its midpoint deviates from the mean of its ends by more than this, relative
+    /// to the light there. 0 halves no edge.
     pub max_error: f32,
     /// Shortest edges made before light is reflected, in element sizes.
     pub min_edge: f32,
     /// Shortest edges of hard shadows in the result, in element sizes.
     pub sharp_edge: f32,
-    /// Approximate limit of the number of elements, as a multiple of the budget and half of the input triangles.
+    /// Approximate limit of the number of elements, as a multiple of this sum: the budget plus half the number of input
+    /// triangles.
     pub max_growth: f32,
 }
 
@@ -65,7 +66,7 @@ pub struct Sampling {
     pub points_a_patch: usize,
     /// Number of points per element at which direct light is sampled.
     pub points_an_element: usize,
-    /// Number of rays per viewpoint and emitter in penumbrae.
+    /// Largest number of rays per viewpoint and emitter in penumbrae.
     pub num_penumbra_rays: u32,
     /// Largest error of the irradiance cache.
     pub cache_tolerance: f32,
@@ -73,7 +74,7 @@ pub struct Sampling {
     pub noise: f32,
 }
 
-/// Number of rays per point and emitter in penumbrae where only the mean over a patch matters.
+/// Largest number of rays per point and emitter in penumbrae if only the mean over a patch matters.
 pub(in crate::bake) const PENUMBRA_RAYS_ON_ELEMENTS: u32 = 64;
 
 /// Number of rays of the hemispheres of patches.
@@ -82,7 +83,7 @@ pub(in crate::bake) const SHOOTING_RAYS: u32 = 512;
 /// Largest radius of a record of the irradiance cache, in element sizes.
 const MAX_RADIUS: f32 = 4.0;
 
-/// Shots per patch, on average, after which shooting ends.
+/// Average number of shots per patch after which shooting ends.
 const MAX_SHOTS_A_PATCH: usize = 64;
 
 /// Memory for rows stored between shots, bytes.
@@ -186,7 +187,8 @@ impl BakeSettings {
         }
     }
 
-    /// Returns the settings of the last subdivision, by all light, given those of subdivision by direct light.
+    /// Returns the settings of the last subdivision, which follows all light. `by_direct` are those of subdivision by
+    /// direct light.
     pub(in crate::bake) fn subdivision_by_all(
         &self,
         by_direct: SubdivisionSettings,

@@ -1,4 +1,4 @@
-//! Enums whose values have a name and a hint, from one table each.
+//! Enums whose values have a name and a hint, defined by one table for each enum.
 
 /// A name that is not in the table.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -26,7 +26,7 @@ macro_rules! choice_table {
                 }
             }
 
-            /// Its purpose, in a few words.
+            /// Purpose of the value, in a few words.
             #[must_use]
             pub const fn hint(self) -> &'static str {
                 match self {

@@ -18,7 +18,7 @@ pub(in crate::bake) struct VertexGather {
     pub gathered: GatheredLight,
     /// Number of viewpoints that were gathered from.
     pub num_hemicubes: usize,
-    /// Mean share of backs in their views.
+    /// Mean share of their views that shows the backs of surfaces.
     pub backface_share: f32,
 }
 

@@ -14,8 +14,8 @@ use crate::radiosity::direct::{DirectLight, is_inside_solid};
 use crate::radiosity::gather::{FinalGather, FinalGatherSettings, GatheredLight};
 use crate::radiosity::{Field, Viewpoints};
 
-/// Errors are relative to at least this share of the mean luminance over the vertices, because errors in the dark are
-/// invisible.
+/// Errors are relative to the luminance, but to no less than this share of the mean luminance over the vertices,
+/// because errors in the dark are invisible.
 const FLOOR: f32 = 0.05;
 
 /// Samples the light of vertices and subdivides the mesh where it is not linear.
@@ -131,7 +131,7 @@ impl<'a> VertexLighting<'a> {
         self.settings.refinement.max_error > 0.0 && !self.observer.is_cancelled()
     }
 
-    /// Samples direct light. Dark viewpoints are also tested for lying inside a solid.
+    /// Samples direct light. Also tests which dark viewpoints lie inside a solid.
     fn direct(&self, viewpoints: &[Viewpoint]) -> SampledLight {
         let light = self.lights.irradiance(viewpoints, self.observer);
         // After a cancel, viewpoints may be dark only because they were not reached.

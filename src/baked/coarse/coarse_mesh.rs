@@ -31,12 +31,12 @@ pub(crate) struct CoarseMesh {
     pub beyond: Vec<UVec2>,
 }
 
-/// Location in the texture of the light of a triangle.
+/// The place in the texture that holds the light of a triangle.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tile {
     /// The texel of its first corner.
     pub origin: UVec2,
-    /// Texels from there to its second corner, across, and to its third, down.
+    /// Number of texels from there across to its second corner, and down to its third corner.
     pub side: u32,
 }
 

@@ -1,5 +1,5 @@
-//! Chooses the nodes of the bisection trees that are drawn as one triangle, so that there are few and the mesh has no
-//! gaps.
+//! Chooses which nodes of the bisection trees are drawn as one triangle each, so that there are few triangles and the
+//! mesh has no gaps.
 //!
 //! A vertex in the middle of an edge can be removed if all triangles that touch it are halves created by it. Then all
 //! pairs of halves, on both sides of the edge, are joined at once, and the mesh stays conforming. Vertices of the

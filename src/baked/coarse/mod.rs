@@ -8,7 +8,7 @@
 //! where the gain has not been measured.
 //!
 //! * `bisection`: the bisection trees of the elements. `coarsen`: which of their nodes are drawn as one triangle.
-//!   `tiles`: the light of these in a texture. `coarse_mesh`: all of it together.
+//!   `tiles`: the light of these triangles in a texture. `coarse_mesh`: the mesh that is made of all of these.
 
 mod bisection;
 mod coarse_mesh;

@@ -1,4 +1,4 @@
-//! Tiles: the location in a texture of the light of each coarse triangle, and the element of each texel.
+//! Tiles: where in a texture the light of each coarse triangle is stored, and to which element each texel belongs.
 //!
 //! A tile is a square grid with the corners of its triangle at (0, 0), (n, 0) and (0, n), so that corners of elements
 //! lie on texels and bilinear interpolation between them shows the same as interpolation on the elements. At the long

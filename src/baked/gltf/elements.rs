@@ -7,13 +7,14 @@
 //! * `trees`: the bisection trees of its triangles, one after the other, each in preorder, one character a node: `a` to
 //!   `p` is a regular tree of 2^0 to 2^15 triangles, all halved opposite their first corner; `0`, `1` or `2` is a
 //!   triangle halved opposite that corner, and the trees of its two halves follow. The triangles of the primitive are
-//!   the leaves, in this order. The corners of a triangle count in the order of the front; a back `[a, c, b]` counts as
+//!   the leaves, in this order. Corners are numbered in the order of the front: a back `[a, c, b]` is read as
 //!   `[a, b, c]`.
-//! * `back_of`: 1 if the triangles are the backs of those of the primitive before, one by one, with corners `[a, c, b]`
-//!   in the place of `[a, b, c]`; generally the number of primitives from the fronts to the backs.
+//! * `back_of`: present if the triangles are backs. It is the number of primitives from their fronts to them: 1 if the
+//!   fronts are the preceding primitive. Backs are in the order of their fronts, with corners `[a, c, b]` in place of
+//!   `[a, b, c]`.
 //!
 //! Programs that change meshes may leave records that no longer fit, so all records are checked against the triangles.
-//! What does not fit is determined from the triangles, as for files without records.
+//! If a record does not fit, its content is determined from the triangles, as for files without records.
 
 use std::collections::HashMap;
 

@@ -9,7 +9,8 @@ use serde_json::{Value, json};
 use super::json::named;
 use crate::scene::{Instance, Scene, Transform, is_degenerate, is_placeable};
 
-/// A transform is flat if it maps the unit cube to less than this share of the volume of a cube with its longest edge.
+/// A transform is flat if the image of the unit cube has less than this share of the volume of a cube whose edge is the
+/// longest edge of the image.
 const FLAT: f64 = 1e-9;
 
 /// A glTF node that is written.
@@ -64,8 +65,8 @@ pub(super) fn branches(scene: &Scene) -> Vec<Branch> {
     branches
 }
 
-/// Some meshes have slivers that rounding would destroy in the space of their node, for instance skinned meshes far
-/// from it. Moves such a mesh to a new node of the same name in world space.
+/// Moves each mesh whose slivers rounding would destroy in the space of its node to a new node of the same name in
+/// world space. An example is a skinned mesh far from its node.
 fn move_to_world_what_rounding_would_lose(scene: &Scene, branches: &mut Vec<Branch>) {
     for n in 0..branches.len() {
         if !branches[n].space.keeps(scene, &branches[n].triangles) {

@@ -23,7 +23,7 @@ pub(super) struct Surfaces {
     pub materials: Vec<Value>,
 }
 
-/// Returns the surfaces of a scene. Those of a bake are unlit, and their vertex colours show the light.
+/// Returns the surfaces of a scene. The materials of a bake are unlit, because the vertex colours hold the light.
 pub(super) fn surfaces(scene: &Scene, is_baked: bool, binary: &mut Binary, used: &mut Extensions) -> Surfaces {
     let unique = unique_images(scene);
     Surfaces {
@@ -59,7 +59,7 @@ fn unique_images(scene: &Scene) -> UniqueImages<'_> {
     unique
 }
 
-/// Returns the images: as they are encoded if every viewer can read that (PNG and JPEG), else as PNG.
+/// Returns the images. Those in PNG and JPEG keep their encoding, because every viewer can read it; others become PNG.
 fn images(unique: &UniqueImages<'_>, binary: &mut Binary) -> Vec<Value> {
     let embedded = |image: &&Image| {
         let is_plain = !image.encoded.is_empty() && matches!(image.mime_type.as_str(), "image/png" | "image/jpeg");
@@ -169,7 +169,7 @@ fn object(scene: &Scene, material: &Material, used: &mut Extensions) -> Value {
         object["emissiveTexture"] = texture_info(slot, used);
     }
     if material.is_emissive() {
-        // The factor is at most one per channel; the rest is in the strength.
+        // The factor is at most one per channel; the remaining factor is the emissive strength.
         object["emissiveFactor"] = json!((material.emission / strength(material.emission)).to_array());
     }
     if let Some(group) = material.group {

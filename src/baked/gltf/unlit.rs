@@ -1,6 +1,6 @@
 //! The appearance in viewers that do not read the stored light: unlit surfaces that show it at one exposure.
 //!
-//! Equation: COLOR_0 = tone(radiance x 2^EV), without the base colour texture, which the viewer multiplies. The tone
+//! Equation: COLOR_0 = tone(radiance x 2^EV), without the base colour texture, by which the viewer multiplies. The tone
 //! mapping is that of this program, so that pictures look alike.
 
 use std::f32::consts::PI;

@@ -1,4 +1,4 @@
-//! `hemicube measure`: irradiance at given points, from a table to a table.
+//! `hemicube measure`: reads a table of points and writes a table of the irradiance at them.
 
 mod table;
 

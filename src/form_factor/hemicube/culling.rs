@@ -18,7 +18,8 @@ const LANES: usize = 4;
 const DISPLACEMENT: f32 = 1.0 / 32.0 + ROUNDING;
 const ROUNDING: f32 = 1.0 / 64.0;
 
-/// Largest error of a clip coordinate over the largest coordinate of the scene: three products and their sum.
+/// Largest rounding error of a clip coordinate (three products and their sum), divided by the largest coordinate of the
+/// scene.
 const CLIP_ERROR: f32 = 8.0 * f32::EPSILON;
 
 /// Triangles of a scene in the order of their chunks.
@@ -47,8 +48,8 @@ impl Culling {
         Self { chunks, lanes, reach }
     }
 
-    /// Indices of the corners that a face of `size` pixels draws from `eye`, the nearest chunks first, so that the
-    /// depth test rejects most of the others before they are shaded.
+    /// Returns the indices of the corners that a face of `size` pixels draws from `eye`. The nearest chunks come first,
+    /// so the depth test rejects most of the others before they are shaded.
     pub(super) fn indices(&self, clip_from_world: &Mat4, eye: Vec3, size: (u32, u32)) -> Vec<u32> {
         let frustum = Frustum::new(clip_from_world);
         let meets = |(chunk, bounds): (usize, &Bounds)| {
@@ -93,7 +94,8 @@ struct Projection {
     /// Rows x, y and w of the clip-from-world matrix.
     rows: [[Vec4; 4]; 3],
     near: Vec4,
-    /// Rounding may move the projections of corners nearer than this anywhere, so their triangles are always drawn.
+    /// Smallest w at which the projection of a corner is exact enough for the test. Triangles with a nearer corner are
+    /// tested against the sides of the frustum only.
     too_near: Vec4,
     /// Half of the width and of the height, pixels.
     half: [Vec4; 2],
@@ -172,7 +174,7 @@ mod tests {
     use crate::form_factor::Viewpoint;
     use crate::form_factor::hemicube::faces::{cell_rectangle, projections};
 
-    /// A random triangle near the origin, between larger than a face and smaller than its pixels.
+    /// A random triangle near the origin. Sizes range from less than a pixel to more than a face.
     fn triangle(seed: u32) -> [Vec3; 3] {
         let number = |i: u32| unit_float(hash(16 * seed + i));
         let random = |i: u32| Vec3::new(number(i), number(i + 1), number(i + 2)) * 2.0 - 1.0;

@@ -34,7 +34,7 @@ pub struct Hemicubes<'a> {
 }
 
 impl<'a> Hemicubes<'a> {
-    /// Creates hemicubes `size_px` pixels wide: a power of two in [`SIZES`]. Other sizes are rounded up to one.
+    /// Creates hemicubes `size_px` pixels wide. The size is a power of two in [`SIZES`]; others are rounded up to one.
     #[must_use]
     pub fn new(gpu: &'a Gpu, scene: &Scene, mesh: &PatchMesh, size_px: u32) -> Self {
         let n = size_px.clamp(*SIZES.start(), *SIZES.end()).next_power_of_two();
@@ -70,8 +70,8 @@ impl<'a> Hemicubes<'a> {
         self.layout.n
     }
 
-    /// Returns the element in view of each pixel of one hemicube, if any. The faces follow each other, the top first,
-    /// row by row.
+    /// Returns the element that is visible in each pixel of one hemicube, if any. The pixels are listed face by face,
+    /// the top first, and row by row within a face.
     ///
     /// # Errors
     /// Returns an error if the device fails.

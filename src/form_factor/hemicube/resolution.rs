@@ -1,4 +1,4 @@
-//! How many pixels a hemicube needs to resolve patches.
+//! Computes the number of pixels that a hemicube needs to resolve patches.
 //!
 //! Source: Baum, Rushmeier, Winget 1989, "Improving radiosity solutions through the use of analytically determined
 //! form-factors" (the aliasing assumption).
@@ -12,10 +12,11 @@ const PIXELS_A_PATCH: f32 = 1.5;
 /// Share of the area that may lie in patches too small to be resolved.
 const UNRESOLVED_SHARE: f32 = 0.1;
 
-/// The smallest and the largest size that is chosen, pixels.
+/// Smallest and largest width that is chosen, pixels.
 const USUAL_SIZES: [u32; 2] = [32, 256];
 
-/// Width of hemicubes in pixels, a power of two, at which a typical patch half a scene away spans a pixel and a half.
+/// Returns the width of hemicubes, pixels: a power of two at which a typical patch, seen from half the diagonal of the
+/// scene, is about 1.5 pixels wide.
 #[must_use]
 pub fn size_for_patches(scene: &Scene, mesh: &PatchMesh) -> u32 {
     let distance = scene.bounds().diagonal() / 2.0;

@@ -33,7 +33,7 @@ pub struct Estimate {
 const TOLERANCE: f64 = 1e-8;
 
 impl PolygonPair {
-    /// The exact form factor, to the error of the quadrature.
+    /// The form factor, exact except for the error of the quadrature.
     ///
     /// ```
     /// use hemicube::form_factor::polygon_pair::{Polygon, PolygonPair};
@@ -58,7 +58,7 @@ impl PolygonPair {
     /// The form factor that the blocker hides, and its error; `None` if it hides nothing.
     fn hidden(&self) -> Option<(f64, f64)> {
         let (a, b) = (self.a.within(&self.b.plane())?, self.b.within(&self.a.plane())?);
-        // Only the part in front of both stands between.
+        // Only the part of the blocker in front of both polygons stands between them.
         let blocker = self.blocker.as_ref()?.within(&self.a.plane())?.within(&self.b.plane())?;
         let normal = self.a.normal();
         let from_point =

@@ -14,7 +14,7 @@ use crate::patch::{MeshSettings, PatchMesh};
 use crate::scene::{Instance, Material, Scene, Triangle, Vertex};
 use crate::trace::Tracer;
 
-/// Number of points of the smaller polygon from which rays start, and of rays a point.
+/// Number of points of the smaller polygon from which rays start, and number of rays per point.
 const HEMISPHERES: (u32, u32) = (8192, 512);
 
 /// Number of points of the smaller polygon at which hemicubes stand.
@@ -24,7 +24,7 @@ impl PolygonPair {
     /// Estimates the form factor with cosine-distributed rays from points of the smaller polygon.
     ///
     /// # Errors
-    /// Rays do not fail; the error is that of [`FormFactorSource::rows`].
+    /// Returns the error of [`FormFactorSource::rows`], which does not fail with rays.
     pub fn by_hemispheres(&self) -> Result<Estimate, FormFactorError> {
         let scene = PairScene::new(self);
         let (num_points, num_rays) = HEMISPHERES;
@@ -59,8 +59,8 @@ struct PairScene {
     viewer: Polygon,
     /// Number of triangles of the larger polygon, which come first.
     num_seen: usize,
-    /// Form factor of the pair over that from the viewer: by reciprocity, the ratio of the areas if the two are
-    /// swapped.
+    /// Form factor of the pair divided by the one from the viewer. If the two polygons are swapped, it is the ratio of
+    /// their areas, by reciprocity.
     ratio: f64,
 }
 
@@ -96,8 +96,8 @@ impl PairScene {
         })
     }
 
-    /// `num_points` points spread evenly over the viewer: each triangle of its fan has a sequence of its own, as long
-    /// as its share of the area.
+    /// `num_points` points spread evenly over the viewer: each triangle of its fan has a sequence of its own, whose
+    /// length is proportional to the area of the triangle.
     fn viewpoints(&self, num_points: u32) -> Vec<Viewpoint> {
         let corners = self.viewer.corners();
         let mut viewpoints = Vec::with_capacity(num_points as usize);

@@ -1,4 +1,4 @@
-//! The file of rows: opened by one process at a time, indexed in memory, appended to.
+//! The file of rows. Only one process at a time can open it; rows are indexed in memory and appended to the file.
 
 use std::collections::HashMap;
 use std::fs::{File, TryLockError};
@@ -17,7 +17,7 @@ pub enum RowCacheError {
     /// The file cannot be opened, read or created.
     #[error("{}: cannot be used as a row cache: {}", .0.display(), .1)]
     Io(PathBuf, io::Error),
-    /// The file is something else and is not changed.
+    /// The file is not a row cache. It is left unchanged.
     #[error("{}: is not a row cache of Hemicube; name another file, or delete this one", .0.display())]
     NotOurs(PathBuf),
     /// Another process holds the lock of the file.
@@ -25,7 +25,7 @@ pub enum RowCacheError {
     InUse(PathBuf),
 }
 
-/// Rows kept in a file.
+/// Rows of form factors stored in a file.
 #[derive(Debug)]
 pub struct RowCache {
     path: PathBuf,
@@ -63,7 +63,7 @@ impl RowCache {
         let (offsets, end) = record_offsets(&mut file, length)
             .map_err(io_error)?
             .ok_or_else(|| RowCacheError::NotOurs(path.to_owned()))?;
-        // A record that a stopped run left unfinished is dropped.
+        // Drop a record that an aborted run left incomplete.
         file.set_len(end).map_err(io_error)?;
         Ok(Self { path: path.to_owned(), rows: Mutex::new(Rows { file, offsets, end, limit, num_reused: 0 }) })
     }
@@ -136,7 +136,8 @@ impl RowCache {
     }
 }
 
-/// Returns the offset of each record, and the end of the last whole one, or `None` if the file is no row cache.
+/// Returns the offset of each record and the end of the last complete record. Returns `None` if the file is not a row
+/// cache.
 fn record_offsets(file: &mut File, length: u64) -> io::Result<Option<(HashMap<u128, u64>, u64)>> {
     file.rewind()?;
     let mut reader = BufReader::new(&*file);

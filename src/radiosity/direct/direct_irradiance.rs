@@ -2,9 +2,9 @@
 //!
 //! Direct light dominates the quality of the picture, so it is not sampled by hemicube pixels. A punctual light takes
 //! one ray per viewpoint: E = I cos theta / r^2 times the transmittance along the ray. An emissive surface takes the
-//! closed form of its unoccluded irradiance times its visible share. The share is estimated from a few rays if all of
-//! them agree; in penumbrae the rays are doubled until they change the irradiance of the viewpoint by less than a given
-//! share.
+//! closed form of its unoccluded irradiance, multiplied by its visible share. The share is estimated from a few rays if
+//! all of them agree. In penumbrae the number of rays is doubled until this changes the irradiance of the viewpoint by
+//! less than a given share.
 //!
 //! Source: Ward 1991, "Adaptive shadow testing for ray tracing" (rays by contribution).
 
@@ -145,7 +145,8 @@ struct Receiver<'a> {
 }
 
 impl Receiver<'_> {
-    /// Doubles the rays to a partly hidden emitter until they change its luminance by less than `error`.
+    /// Doubles the rays to a partly hidden emitter until they change the luminance of its irradiance by less
+    /// than `error`.
     fn refine(&self, candidate: &Candidate, error: f32, visibility: &mut Visibility) {
         let unoccluded = luminance(candidate.unoccluded);
         let max_rays = self.lights.num_penumbra_rays;
@@ -159,7 +160,7 @@ impl Receiver<'_> {
         }
     }
 
-    /// Traces rays to points of an emitter, weighted by their contribution, until there are `num_rays`.
+    /// Traces rays to points of an emitter until there are `num_rays`. Each is weighted by its point's contribution.
     fn trace_rays(&self, candidate: &Candidate, num_rays: u32, visibility: &mut Visibility) {
         if candidate.unoccluded.max_element() <= NEGLIGIBLE {
             return;
@@ -180,7 +181,7 @@ impl Receiver<'_> {
     }
 }
 
-/// The visible share of one emitter so far: the summed weight of the rays that pass, and that of all rays.
+/// Estimate of the visible share of one emitter: summed weight of the rays that pass, and summed weight of all rays.
 #[derive(Clone, Copy, Default)]
 struct Visibility {
     passing: f32,

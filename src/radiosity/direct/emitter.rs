@@ -13,8 +13,8 @@ use crate::form_factor::point_to_polygon;
 use crate::patch::PatchMesh;
 use crate::scene::{Scene, area_of, normal_of};
 
-/// Cell size, as a share of the scene's extent, within which triangles of one surface form one emitter. Lamps of one
-/// mesh that hang apart thus have separate visibility.
+/// Triangles of one surface form one emitter if they lie in one grid cell of this size, as a share of the scene's
+/// extent. So separate lamps of one mesh have separate visibility.
 const CELL_SHARE: f32 = 0.1;
 
 /// Emitters below this share of a viewpoint's light are pooled and sampled together, so a thousand lamps do not need a
@@ -33,7 +33,7 @@ struct Emitter {
     triangles: Range<usize>,
 }
 
-/// Group, instance, material, side and cell: what the triangles of one emitter have in common.
+/// Group, instance, material, side and cell, which are equal for all triangles of one emitter.
 type SurfaceKey = (GroupId, u32, u32, bool, [i32; 3]);
 
 struct EmitterTriangle {
@@ -43,18 +43,18 @@ struct EmitterTriangle {
     area: f32,
 }
 
-/// The emitters that one viewpoint samples. Viewpoints use it one after the other, so that its memory is reused.
+/// The emitters that one viewpoint samples. One value serves many viewpoints in turn, so that its memory is reused.
 #[derive(Default)]
 pub(super) struct Candidates {
     pub list: Vec<Candidate>,
-    /// Triangles of all candidates, each candidate's in one range.
+    /// Triangles of all candidates. Those of one candidate are contiguous.
     triangles: Vec<Contribution>,
     /// Emitters above the horizon: index, unoccluded irradiance, range of their contributions.
     facing: Vec<(usize, Vec3, Range<usize>)>,
     contributions: Vec<Contribution>,
 }
 
-/// An emitter, or the pool of the small ones of a light group.
+/// One emitter, or the pool of all small emitters of a light group.
 pub(super) struct Candidate {
     pub group: GroupId,
     /// Irradiance without occlusion, lux per channel.

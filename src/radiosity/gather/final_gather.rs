@@ -1,4 +1,4 @@
-//! The final gather: hemicubes at a sparse set of viewpoints, interpolation between them.
+//! The final gather: hemicubes at a sparse set of viewpoints, and interpolation between them.
 //!
 //! E(x) = sum over elements e of F(x, e) B_e is evaluated at *records*, the viewpoints that the [irradiance
 //! cache](super::irradiance_cache) finds too far from all others. Records are densest where light changes fast.
@@ -80,7 +80,7 @@ struct Record {
 }
 
 impl<'a> FinalGather<'a> {
-    /// A gather of `radiosity` `[e][g]`, without records yet.
+    /// Returns a gather of `radiosity` `[e][g]` that has no records yet.
     #[must_use]
     pub fn new(mesh: &'a PatchMesh, radiosity: &'a Field, settings: FinalGatherSettings) -> Self {
         Self {

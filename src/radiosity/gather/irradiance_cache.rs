@@ -18,14 +18,14 @@ use rustc_hash::FxHashMap;
 
 use crate::form_factor::Viewpoint;
 
-/// Ratio of the error up to which records are blended to the tolerance.
+/// Largest error at which a record is still blended, as a multiple of the tolerance.
 const BLEND: f32 = 2.0;
 
 /// Smallest radius of a record, as a share of the largest: finer detail in corners than the mesh can show is not
 /// needed.
 const SMALLEST: f32 = 1.0 / 64.0;
 
-/// How far in front of a record, and behind it, an interpolated point may lie, as a share of the record's radius.
+/// Largest distances of an interpolated point in front of a record and behind it, as shares of the record's radius.
 const IN_FRONT: f32 = 0.5;
 const BEHIND: f32 = 0.1;
 
@@ -40,10 +40,12 @@ struct Record {
     index: u32,
 }
 
-/// The finest grid: records of more than this many halvings of the largest radius share its cells.
+/// Level of the finest grid: the number of halvings of the largest radius. All records with smaller radii are also in
+/// this grid.
 const MAX_LEVEL: usize = 15;
 
-/// Records in grids of halving cell sizes, each in the grid whose cells are about as large as its neighbourhood.
+/// Records in grids whose cell size halves from level to level. Each record is in the grid whose cells are about as
+/// large as its neighbourhood.
 #[derive(Debug)]
 pub(super) struct IrradianceCache {
     /// Error up to which a record suffices.
@@ -81,13 +83,13 @@ impl IrradianceCache {
         }
     }
 
-    /// Returns true if a record is so close to `viewpoint` that it needs none of its own.
+    /// Returns true if a record is so close that `viewpoint` needs no record of its own.
     pub fn covers(&self, viewpoint: &Viewpoint) -> bool {
         self.nearby(viewpoint).any(|record| self.error(record, viewpoint).is_some_and(|error| error < self.tolerance))
     }
 
-    /// Sets `weights` to the records that `viewpoint` interpolates, with weights that sum to 1; empty if there are
-    /// none.
+    /// Sets `weights` to the records between which `viewpoint` interpolates, with weights that sum to 1; empty if
+    /// there are no such records.
     ///
     /// Equation: w = (1 - error / (2 tolerance))^2, error as above.
     pub fn weights(&self, viewpoint: &Viewpoint, weights: &mut Vec<(u32, f32)>) {

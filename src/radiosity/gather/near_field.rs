@@ -27,7 +27,7 @@ pub(super) struct NearField<'a> {
     mesh: &'a PatchMesh,
     /// Reflected radiosity `[e][g]` as it is gathered without correction.
     radiosity: &'a Field,
-    /// Distance from which on elements are not corrected, metres.
+    /// Distance beyond which elements are not corrected, metres.
     reach: f32,
     /// Irradiance `[l][g]` at light vertices, and whether each lies in the open; `None` before the first gather.
     light: Option<(Field, Vec<bool>)>,
@@ -37,7 +37,7 @@ pub(super) struct NearField<'a> {
 pub(super) type NearElement = (ElementId, f32);
 
 impl<'a> NearField<'a> {
-    /// Creates a correction without light at vertices yet, which changes nothing.
+    /// Creates a correction that changes nothing until the light at vertices is set.
     pub fn new(mesh: &'a PatchMesh, radiosity: &'a Field, reach: f32) -> Self {
         Self { mesh, radiosity, reach, light: None }
     }

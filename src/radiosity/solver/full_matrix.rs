@@ -1,8 +1,8 @@
 //! The full matrix: all form factors between patches, solved by Gauss-Seidel iteration.
 //!
-//! The original radiosity method, for small scenes and as a reference for the other solvers. Memory and time grow with
-//! the square of the number of patches. A sweep updates one unknown after the other from the newest values of all
-//! others, which converges at least as fast as Jacobi iteration.
+//! This is the original radiosity method, for small scenes and as a reference for the other solvers. Memory and time
+//! grow with the square of the number of patches. A sweep updates one unknown after the other from the newest values of
+//! all others, which converges at least as fast as Jacobi iteration.
 //!
 //! Source: Goral, Torrance, Greenberg, Battaile 1984; Cohen, Greenberg 1985.
 
@@ -18,7 +18,7 @@ use crate::radiosity::field::Field;
 /// Largest size of a matrix, bytes.
 const MAX_BYTES: usize = 1 << 30;
 
-/// Largest relative change of a sweep at which the system counts as solved.
+/// The system counts as solved if the largest relative change in a sweep is at most this.
 const TOLERANCE: f32 = 1e-6;
 
 /// Largest number of sweeps, equal to the limit of the slower Jacobi iteration.
@@ -40,7 +40,7 @@ pub struct MatrixTooLarge {
 /// Checks that the matrix of `mesh` fits into memory.
 ///
 /// # Errors
-/// Returns an error if it does not.
+/// Returns an error if the matrix does not fit.
 pub fn check_size(mesh: &PatchMesh) -> Result<(), MatrixTooLarge> {
     let num_patches = mesh.patches.len();
     let bytes = num_patches.saturating_mul(num_patches).saturating_mul(size_of::<Vec3>());
@@ -50,8 +50,8 @@ pub fn check_size(mesh: &PatchMesh) -> Result<(), MatrixTooLarge> {
     Ok(())
 }
 
-/// Solves for the indirect irradiance `[p][g]` on the patches; those without a row stay dark. Also returns the number
-/// of sweeps.
+/// Solves for the indirect irradiance `[p][g]` on the patches; patches without a row stay dark. Also returns the
+/// number of sweeps.
 ///
 /// Equation: I_p = b_p + sum over q of K_pq I_q with b_p = sum over e of F_pe rho_e D_e and K_pq = sum over e in q of
 /// F_pe rho_e.
@@ -62,7 +62,7 @@ pub fn solve(mesh: &PatchMesh, direct: &Field, rows: &RowStore) -> (Field, usize
     let (matrix, right): (Vec<Vec<Vec3>>, Vec<Vec<Vec3>>) =
         (0..size).into_par_iter().map(|p| equation(mesh, direct, rows, PatchId::new(p))).unzip();
     let mut solution = Field::from_values(direct.num_groups(), right.concat());
-    // Sweep over the unknowns, each from the newest values of the others.
+    // Sweep over the unknowns, and compute each from the newest values of the others.
     for sweep in 1..=MAX_SWEEPS {
         let (mut change, mut brightest) = (0.0f32, f32::MIN_POSITIVE);
         for p in 0..size {

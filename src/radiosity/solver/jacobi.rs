@@ -3,9 +3,9 @@
 //! I_p <- sum over elements e of F_pe rho_e (D_e + I of e's patch)
 //!
 //! Started from I = 0, the k-th pass adds the light of the k-th reflection. This is the Neumann series of the radiosity
-//! equation. Started from the result of progressive refinement, it removes the proximity error of shooting. A shooter
-//! is sampled at one or a few points, so an element close to it receives too much or too little. A row of the receiver
-//! is exact in its neighbourhood and sums to 1 in a closed room.
+//! equation. Started from the result of progressive refinement, the iteration removes the proximity error of shooting.
+//! A shooter is sampled at one or a few points, so an element close to it receives too much or too little. The row of a
+//! receiver is exact near the receiver and sums to 1 in a closed room.
 //!
 //! Source: Goral, Torrance, Greenberg, Battaile 1984 (the system); Baum, Rushmeier, Winget 1989 (the proximity
 //! assumption).

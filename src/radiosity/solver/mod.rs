@@ -9,8 +9,8 @@
 //! | [`jacobi`] | Jacobi's: gathering | all patches gather from the values of the previous pass: one more reflection |
 //! | [`full_matrix`] | Gauss-Seidel's | each patch gathers from the newest values of all others |
 //!
-//! Shooting needs the rows of the shooters only, and a good picture after a small share of them; the other two need all
-//! rows.
+//! Shooting needs only the rows of the patches that shoot, and a small share of all rows is enough for a good picture.
+//! The other two solvers need all rows.
 
 pub mod full_matrix;
 pub mod jacobi;

@@ -1,4 +1,4 @@
-//! What a solver returns: irradiance on elements, unshot power on patches, and where the power went.
+//! The result of a solver: irradiance on elements, unshot power on patches, and where the power went.
 
 use glam::{DVec3, Vec3};
 
@@ -60,8 +60,9 @@ pub struct Energy {
 }
 
 impl Energy {
-    /// The balance of a gathered solution. Its reflected power is shot once more; the difference between the power that
-    /// this reflects and the power of the solution counts as unshot, so the reciprocity error of the rows shows in it.
+    /// Returns the balance of a gathered solution. To compute it, the reflected power of the solution is shot once
+    /// more. The power that direct light and this shot reflect, minus the reflected power of the solution, counts as
+    /// unshot. It includes the reciprocity error of the rows.
     #[must_use]
     pub fn of_gathered(mesh: &PatchMesh, direct: &Field, on_patches: &Field, rows: &RowStore) -> Self {
         let mut energy = Self::default();

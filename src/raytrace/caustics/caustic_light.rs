@@ -1,12 +1,12 @@
 //! Caustics and their interreflection: the irradiance that the first pass lacks, solved for all elements.
 //!
-//! Radiosity is solved for this light alone, with form factors that are extended by mirrors: rays from each element
-//! pass through mirrors and panes to the diffuse surfaces that these show.
+//! Radiosity is solved for this light alone, with form factors that are extended by mirrors: rays from each element are
+//! followed by way of mirrors and panes to diffuse surfaces.
 //!
 //! Equation: X = T rho X + M rho E - G E + X_lamps, where X is the missing irradiance and E the stored one. T is the
 //! share of light that arrives along all rays, M the share along rays that hit a mirror or a pane, and X_lamps the
-//! irradiance from lamps by way of mirrors and panes. G subtracts what panes reflect in the first pass, which treats
-//! them as paint.
+//! irradiance from lamps by way of mirrors and panes. G subtracts the light that panes reflect in the first pass, which
+//! treats them as paint.
 //!
 //! Sources: Wallace, Cohen, Greenberg 1987, "A Two-pass Solution to the Rendering Equation"; Sillion and Puech 1989, "A
 //! General Two-Pass Method Integrating Specular and Diffuse Reflection" (extended form factors).
@@ -44,9 +44,9 @@ const TOLERANCE: f32 = 1e-3;
 
 /// The light that an element receives.
 struct Element {
-    /// Straight from lights, through panes.
+    /// Irradiance straight from lights, through panes.
     through_panes: Vec3,
-    /// Stored light by way of mirrors and panes, minus what panes reflect as paint in the first pass.
+    /// Stored light by way of mirrors and panes, minus the light that panes reflect as paint in the first pass.
     stored: Vec3,
     /// Sides of triangles in view of the element, each with the share of its irradiance that arrives here.
     factors: Vec<(u32, Vec3)>,
@@ -100,7 +100,7 @@ fn elements(
 }
 
 impl Element {
-    /// Returns what arrives along `num_rays` rays from points of a triangle, cosine-distributed about its front.
+    /// Returns the light along `num_rays` rays from points of a triangle, cosine-distributed about its front.
     fn seen_from(rays: &RayCaster<'_>, stored: &StoredLight<'_>, triangle: TriangleId, num_rays: u32) -> Self {
         let corners = rays.scene().corners(triangle);
         let normal = normal_of(corners);
@@ -160,7 +160,7 @@ fn solved(elements: &[Element], from_lamps: &[Vec3]) -> Vec<Vec3> {
     reflected
 }
 
-/// Values of triangles at their vertices, averaged over neighbours `num_times`; no light is lost.
+/// Returns the values of triangles at their vertices, averaged over neighbours `num_times` times. No light is lost.
 fn smoothed(scene: &Scene, areas: &[f32], mut values: Vec<Vec3>, num_times: usize) -> Vec<Vec3> {
     let mut found = at_vertices(scene, areas, &values);
     for _ in 0..num_times {

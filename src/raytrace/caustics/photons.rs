@@ -2,9 +2,9 @@
 //! lamp in a mirror.
 //!
 //! A photon starts at a random point of a lamp in a cosine-distributed direction and carries the flux Phi = pi L A / p
-//! of the lamp that was chosen with probability p. Where it lands on a diffuse surface after a reflection, the triangle
-//! adds its flux; irradiance is flux / area. Only emissive surfaces shoot, because path tracing leaves out punctual
-//! lights by way of mirrors as well.
+//! of the lamp that was chosen with probability p. If the photon lands on a diffuse surface after a reflection, its
+//! flux is added to the triangle there; irradiance is flux / area. Only emissive surfaces shoot, because path tracing
+//! leaves out punctual lights by way of mirrors as well.
 //!
 //! Source: Arvo 1986, "Backward Ray Tracing" (light is stored on the surfaces that it lands on).
 
@@ -18,7 +18,7 @@ use crate::raytrace::path::specular_chain::follow;
 use crate::raytrace::ray::{Ray, RaySource};
 use crate::raytrace::sampler::Sampler;
 
-/// Photons shot before those that have landed are counted again.
+/// Number of photons that are shot between two counts of those that have landed.
 const BATCH: u32 = 1 << 17;
 
 /// Photons in one task of a core.

@@ -71,10 +71,11 @@ impl Beams {
         last
     }
 
-    /// Density with which a ray of `light` finds `surface`, per steradian at the point that hits it at `distance`.
+    /// Density with which a ray of `light` finds `surface`, per steradian at a point whose ray hits the surface at
+    /// `distance`.
     ///
-    /// Equation: p = p_light cos_lit / r_light^2 x r^2 / cos_seen, from solid angle at the light to area to solid angle
-    /// at the point.
+    /// Equation: p = p_light cos_lit / r_light^2 x r^2 / cos_seen, converted from solid angle at the light to area, and
+    /// from area to solid angle at the point.
     pub(crate) fn density(&self, light: usize, arrival: &Arrival, surface: &Surface, distance: f32) -> f32 {
         let Some(Some(beam)) = self.beams.get(light) else { return 0.0 };
         let (cos_lit, cos_seen) = (surface.geometric.dot(arrival.to_light), surface.geometric.dot(surface.to_viewer));

@@ -1,8 +1,8 @@
 //! Bounds of one lamp or of several: an estimate of the light that they may send to a point.
 //!
-//! Equation: importance = power cos_emitter cos_receiver / distance^2, where either cosine is the largest that any lamp
-//! within the bounds may have: the angle to the axis less the spread of the normals less the angle that the box
-//! subtends.
+//! Equation: importance = power cos_emitter cos_receiver / distance^2, where each cosine is the largest that any lamp
+//! within the bounds may have. The angle of cos_emitter is the angle to the axis, minus the spread of the normals,
+//! minus the angle that the box subtends.
 //!
 //! Source: Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", section 12.6.3.
 
@@ -10,7 +10,7 @@ use std::f32::consts::{PI, TAU};
 
 use glam::Vec3;
 
-/// Distance, in radii of their bounds, beyond which lamps that face the same way are alike.
+/// Lamps that face the same way count as alike beyond this distance, in radii of their bounds.
 const FAR: f32 = 4.0;
 
 /// Cosine of the angle within which lamps face the same way.
@@ -72,11 +72,11 @@ impl LightBounds {
         if cos_emitter <= 0.0 || cos_receiver <= 0.0 {
             return 0.0;
         }
-        // Within the box the distance to the centre is no estimate.
+        // Inside the box, the distance to the centre may be far smaller than that to the lamp.
         self.power * cos_emitter * cos_receiver / distance_squared.max(radius_squared).max(f32::MIN_POSITIVE)
     }
 
-    /// Returns true if the lamps differ, as seen from this point, in hardly anything but their power.
+    /// Returns true if the lamps, as seen from this point, differ almost only in their power.
     pub(crate) fn are_alike(&self, point: Vec3) -> bool {
         let radius_squared = 0.25 * (self.high - self.low).length_squared();
         self.cos_spread >= SAME_WAY && point.distance_squared(self.centre()) > FAR * FAR * radius_squared
@@ -109,7 +109,7 @@ impl Angle {
         Self { cos, sin: (1.0 - cos * cos).sqrt() }
     }
 
-    /// The angle less `other`, at least 0.
+    /// Returns the angle minus `other`, at least 0.
     fn less(self, other: Self) -> Self {
         if self.cos > other.cos {
             return Self { cos: 1.0, sin: 0.0 };

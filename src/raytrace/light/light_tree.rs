@@ -2,9 +2,9 @@
 //!
 //! Each node bounds its lamps in space, in direction and in power. The descent chooses a child with a probability
 //! proportional to its importance, an estimate of the light that the child may send to the point; the probability of a
-//! lamp is the product along its way. A node is built by the split with the smallest cost = power x directions x area,
-//! a surface area heuristic for lamps. A bake cuts every lamp into many small triangles: below a node that is far away
-//! and whose lamps face the same way, only power decides.
+//! lamp is the product of the probabilities along the path from the root to the lamp. A node is built by the split with
+//! the smallest cost = power x directions x area, a surface area heuristic for lamps. A bake cuts every lamp into many
+//! small triangles: below a node that is far away and whose lamps face the same way, only power decides.
 //!
 //! Source: Conty Estevez and Kulla 2018, "Importance Sampling of Many Lights with Adaptive Tree Splitting".
 

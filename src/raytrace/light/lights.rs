@@ -163,7 +163,7 @@ impl<'a> Lights<'a> {
         let mut number = sampler.number();
         let mut chosen = None;
         let mut whole = 0.0;
-        // Weighted reservoir sampling of one light; the number is rescaled to 0..1 after each decision.
+        // Weighted reservoir sampling of one light; the random number is rescaled to 0..1 after each decision.
         for (light, arrival) in self.punctual(place).enumerate() {
             let weight = weight(&arrival, normal);
             if weight <= 0.0 {

@@ -97,7 +97,8 @@ impl RayCaster<'_> {
     }
 
     /// Radiance towards the viewer of the emissive triangles, reflected diffusely and in glossy metal. `path_densities`
-    /// are those with which a path takes a direction by either reflection; it accounts for the rest of the light.
+    /// are the densities with which a path takes a direction by each of the two reflections; the path accounts for the
+    /// rest of the light.
     fn reflected_of_emitters(
         &self,
         surface: &Surface,
@@ -127,7 +128,8 @@ impl RayCaster<'_> {
     }
 
     /// Irradiance from the emissive triangles at `origin`, above a surface with this shading and this geometric normal,
-    /// estimated by one sample. `path_density` is that with which a path takes a direction; it accounts for the rest.
+    /// estimated by one sample. `path_density` is the density with which a path takes a direction; the path accounts
+    /// for the rest.
     pub(crate) fn emitter_irradiance(
         &self,
         origin: Vec3,
@@ -160,8 +162,8 @@ impl RayCaster<'_> {
         is_above.then(|| (self.passing(origin, to_lamp, 1.0), sample)).map(|(passing, sample)| (sample, passing))
     }
 
-    /// The part of the irradiance on a flat surface straight from all lights that passes panes, by one sample of the
-    /// emissive triangles.
+    /// Irradiance on a flat surface straight from all lights, but only the light that has passed panes, estimated by
+    /// one sample of the emissive triangles.
     pub(crate) fn irradiance_through_panes(&self, origin: Vec3, normal: Vec3, sampler: &mut Sampler) -> Vec3 {
         if !self.has_panes {
             return Vec3::ZERO;

@@ -1,7 +1,7 @@
 //! Path tracing: an unbiased estimate of the light along a ray, the reference for the other methods.
 //!
 //! Equation: L_o = L_e + integral of f L_i cos over the directions (the rendering equation), followed recursively along
-//! one random direction a surface.
+//! one random direction at each surface.
 //!
 //! The light of lamps is sampled twice at every diffuse or glossy surface: by a point on a lamp (next-event estimation)
 //! and by the direction in which the path continues. The power heuristic weights the two. Paths cannot hit punctual
@@ -118,8 +118,8 @@ impl<'a> PathTracer<'a> {
         !self.rays.beams.is_empty() && bounce < self.max_bounces
     }
 
-    /// Radiance towards the viewer that a surface reflects diffusely of light that punctual lights cast on another
-    /// surface.
+    /// Radiance towards the viewer that a surface reflects diffusely. The light comes from another surface, on which
+    /// punctual lights cast it.
     fn connected(&self, surface: &Surface, sampler: &mut Sampler) -> Vec3 {
         let origin = self.rays.above(surface.position, surface.geometric);
         let density = |direction| surface.diffuse_density(direction);

@@ -104,7 +104,8 @@ impl<'a> RayCaster<'a> {
 /// The power heuristic: the weight of a sample with density `ours` where another strategy has density `theirs`.
 ///
 /// Equation: w = p_ours^2 / (p_ours^2 + p_theirs^2). For every direction, the weights of both strategies sum to one, so
-/// their sum is unbiased. The strategy with the higher density dominates, because its estimate has less noise.
+/// the sum of the weighted samples is unbiased. The strategy with the higher density dominates, because its estimate
+/// has less noise.
 ///
 /// Source: Veach 1997, section 9.2.
 pub(crate) fn power_heuristic(ours: f32, theirs: f32) -> f32 {

@@ -13,7 +13,7 @@ const MAX_MIRRORS: u32 = 12;
 /// How a ray reached a surface.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Chain {
-    /// Factor of the radiance from the surface.
+    /// Factor by which the radiance from the surface is multiplied.
     pub throughput: Vec3,
     /// Number of mirrors and panes on the way.
     pub num_mirrors: u32,
@@ -23,7 +23,8 @@ pub(crate) struct Chain {
     pub emission_share: f32,
 }
 
-/// Visits the nearest surface along a ray and those behind mirrors and panes, and returns how many there are.
+/// Visits the nearest surface along a ray and those behind mirrors and panes, and returns the number of visited
+/// surfaces.
 ///
 /// `prepare` may change a surface before it is visited and followed.
 pub(crate) fn follow(

@@ -21,12 +21,12 @@ use crate::trace::Tracer;
 /// Precision of a final gather at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GatherPrecision {
-    /// Smallest number of rays a point.
+    /// Smallest number of rays per point.
     pub min_rays: u32,
-    /// Largest number of rays a point.
+    /// Largest number of rays per point.
     pub max_rays: u32,
-    /// Standard error of a point's irradiance below which no more rays are cast, relative to the irradiance, direct
-    /// part included.
+    /// No more rays are cast at a point once the standard error of its irradiance is below this share of the
+    /// irradiance, direct part included.
     pub error: f32,
 }
 
@@ -38,8 +38,8 @@ const NUM_STREAMS: u32 = 16;
 /// Equation: E = mean over cosine-distributed rays of rho (E_direct + E_indirect) where the ray ends.
 ///
 /// E_indirect is the stored light; E_direct is sampled anew, because the shadows of direct light may be finer than the
-/// mesh. The number of rays doubles until the standard error is small beside the whole irradiance, whose direct part
-/// `[point]` is `direct`. `tracer` must hold the elements of `baked`.
+/// mesh. The number of rays doubles until the standard error is small relative to the total irradiance. `direct` is
+/// the direct part of the irradiance `[point]`. `tracer` must hold the elements of `baked`.
 ///
 /// Source: Lischinski, Tampieri, Greenberg 1993, "Combining hierarchical radiosity and discontinuity meshing".
 #[must_use]
@@ -74,7 +74,7 @@ pub fn gathered_irradiance(
         .collect()
 }
 
-/// Mean of `seen(stream, index)` over its streams, with twice as many rays until its standard error is small enough.
+/// Returns the mean of `seen(stream, index)`. The number of rays doubles until the standard error is small enough.
 fn refined(seen: impl Fn(u32, u32) -> Vec3, direct: Vec3, precision: &GatherPrecision) -> Vec3 {
     let mut sums = [Vec3::ZERO; NUM_STREAMS as usize];
     let mut done = 0;
@@ -104,7 +104,7 @@ const TRUSTED_FROM: f32 = 4.0;
 /// Indirect radiance from one random direction of the hemisphere, times pi.
 ///
 /// Stored light is as coarse as the elements: at a distance of about an element it is no better than the light stored
-/// at the point itself. A ray that short is followed by another bounce, until one is long enough.
+/// at the point itself. After such a short ray, the path continues with another bounce until a ray is long enough.
 ///
 /// Source: Christensen 1999, "Faster photon map global illumination".
 fn gathered(rays: &RayCaster<'_>, stored: &StoredLight<'_>, point: &PointOnSurface, sampler: &mut Sampler) -> Vec3 {

@@ -1,6 +1,6 @@
 //! Reference irradiance at given points by path tracing, with standard errors.
 //!
-//! Equation: E = mean over the paths of L / p cos, with directions drawn with density p = cos / pi. The standard error
+//! Equation: E = mean over the paths of L cos / p, with directions drawn with density p = cos / pi. The standard error
 //! of the mean of n independent estimates x_i is sqrt(sum (x_i - mean)^2 / (n (n - 1))).
 
 use std::f32::consts::{FRAC_1_PI, PI};
@@ -37,7 +37,7 @@ pub struct Irradiance {
 
 /// Estimates the irradiance at points by [`PathSettings::samples`] paths each. Returns `None` if it was cancelled.
 ///
-/// Directions below the surface that a point lies on count as dark.
+/// Light from directions below the surface on which a point lies is not counted.
 #[must_use]
 pub fn irradiance(
     tracer: &Tracer<'_>,

@@ -33,7 +33,7 @@ pub(crate) struct Surface {
     pub to_viewer: Vec3,
     /// Diffuse reflectance; 0 on the back of a single-sided surface.
     pub reflectance: Vec3,
-    /// Diffuse reflectance that radiosity uses for the share that is clear glass, which it treats as paint.
+    /// Diffuse reflectance of the share that is clear glass. Radiosity uses it, because it treats glass as paint.
     pub unclear_reflectance: Vec3,
     /// Emitted radiance; 0 on the back of a single-sided surface.
     pub emission: Vec3,
@@ -52,7 +52,7 @@ pub(crate) struct Scattered {
 /// The kind of scattering.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Way {
-    /// Diffuse reflection; density of the direction per steradian. Lamps are sampled as well.
+    /// Diffuse reflection, with the density of the direction per steradian. Lamps are sampled as well.
     Diffuse { density: f32 },
     /// Reflection in a mirror, in glossy metal or at a pane. The density of the direction is per steradian, or 0 if
     /// only one direction is possible.
@@ -105,8 +105,8 @@ impl Surface {
         surface
     }
 
-    /// Interpolated unit normal on the side of the ray, bent by the normal map if `is_mapped`; the geometric normal if
-    /// the other one faces away from the ray.
+    /// Returns the interpolated unit normal on the side of the ray, perturbed by the normal map if `is_mapped`. If it
+    /// faces away from the ray, returns the geometric normal instead.
     fn shading_normal(&self, scene: &Scene, is_mapped: bool) -> Vec3 {
         let normals = scene.triangles[self.triangle.index()].vertices.map(|v| scene.vertices[v as usize].normal);
         let weights = self.barycentric;

@@ -8,7 +8,8 @@ use crate::base::ids::TriangleId;
 use crate::base::triangle::interpolate;
 use crate::scene::Scene;
 
-/// The unit normal by the normal map of a triangle's material at a point, given by the weights of the corners.
+/// Returns the unit normal that the normal map of a triangle's material gives at a point. The point is stated by the
+/// weights of the corners.
 ///
 /// It lies on the side of `smooth`, the interpolated normal of the front. `None` if the material has no normal map or
 /// the texture coordinates of the triangle span no area.

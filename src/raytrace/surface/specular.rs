@@ -4,11 +4,11 @@
 //!
 //! f(i, o) = F(i m) G(i, o) D(m) / (4 cos_i cos_o), m = (i + o) / |i + o|
 //!
-//! where F is the Fresnel reflectance (Schlick's approximation) and G the share of facets that neither the light nor
-//! the viewer is hidden from (Smith). D(m) = a^2 / (pi (cos_m^2 (a^2 - 1) + 1)^2) with the width a = roughness^2.
-//! Directions are sampled by facets that the viewer sees, which leaves the weight F G / G_viewer. Glass is a thin pane:
-//! light passes straight, tinted by the base colour (KHR_materials_transmission), or is reflected by the exact Fresnel
-//! equations.
+//! where F is the Fresnel reflectance (Schlick's approximation) and G the share of facets that are hidden neither from
+//! the light nor from the viewer (Smith). D(m) = a^2 / (pi (cos_m^2 (a^2 - 1) + 1)^2) with the width a = roughness^2.
+//! A direction is sampled as the reflection in one of the facets that the viewer sees, so its weight is F G / G_viewer.
+//! Glass is a thin pane: light passes straight, tinted by the base colour (KHR_materials_transmission), or is reflected
+//! by the exact Fresnel equations.
 //!
 //! Sources: Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces" (GGX); Heitz 2014,
 //! "Understanding the Masking-Shadowing Function", and 2018, "Sampling the GGX Distribution of Visible Normals";
@@ -142,8 +142,8 @@ impl Specular {
         }
     }
 
-    /// Radiance towards the viewer under unit irradiance on a plane across `to_light`: f cos, the highlight of a light;
-    /// 0 for a mirror or a pane.
+    /// Radiance towards the viewer under unit irradiance on a plane perpendicular to `to_light`: f cos, the highlight
+    /// of a light; 0 for a mirror or a pane.
     pub(crate) fn highlight(&self, to_viewer: Vec3, to_light: Vec3) -> Vec3 {
         let (cos_out, cos_in) = (self.normal.dot(to_viewer), self.normal.dot(to_light));
         match self.lobe {
@@ -199,7 +199,7 @@ fn hidden(cosine: f32, alpha: f32) -> f32 {
 fn visible_facet(to_viewer: Vec3, normal: Vec3, alpha: f32, square: Vec2) -> Vec3 {
     let (tangent, bitangent) = tangent_frame(normal);
     let local = Vec3::new(to_viewer.dot(tangent), to_viewer.dot(bitangent), to_viewer.dot(normal).max(1e-6));
-    // Stretched by 1 / a the facets are those of a hemisphere: sample the disc that the viewer sees of it.
+    // Stretched by 1 / a, the facets are those of a hemisphere: sample the disc that the viewer sees of it.
     let viewer = (local * Vec3::new(alpha, alpha, 1.0)).normalize();
     let radius = square.x.sqrt();
     let (sin, cos) = (TAU * square.y).sin_cos();

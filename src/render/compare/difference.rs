@@ -1,8 +1,8 @@
 //! Difference of two pictures as numbers that a test can bound.
 //!
-//! Each of the three numbers detects another fault: the relative error finds a large one anywhere, the mean difference
-//! a picture that is slightly too bright everywhere, and the perceptible share a small region that is plainly wrong.
-//! FLIP estimates for each pixel the difference that an observer sees.
+//! Each of the three numbers detects a different fault: the relative error finds a large error anywhere, the mean
+//! difference finds a picture that is slightly too bright everywhere, and the perceptible share finds a small region
+//! that is plainly wrong. FLIP estimates for each pixel the difference that an observer sees.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use super::flip::flip;
 use crate::base::colour::{linear_from_srgb, luminance};
 use crate::render::{FileKind, Picture, RenderError};
 
-/// CIELAB difference of colours side by side that an eye just notices (Mahy et al. 1994).
+/// Smallest CIELAB difference that an eye notices between two colours side by side (Mahy et al. 1994).
 const PERCEPTIBLE_STEP: f32 = 2.3;
 
 /// Linear pixels, row by row from the top.
@@ -34,12 +34,12 @@ pub struct Difference {
     pub relative_rmse: f32,
     /// Mean luminance of the picture divided by that of the reference, minus one.
     pub mean_difference: f32,
-    /// Share of pixels whose colour differs by more than an eye just notices.
+    /// Share of pixels whose colour differs by more than the smallest difference that an eye notices.
     pub perceptible_share: f32,
 }
 
 impl Raster {
-    /// Returns the colours that a file of `kind` would hold of a picture.
+    /// Returns the colours of a picture as a file of `kind` would store them.
     #[must_use]
     pub fn of(picture: &Picture, kind: FileKind) -> Self {
         match kind {
@@ -145,7 +145,8 @@ fn ratio(part: f64, whole: f64) -> f64 {
     if part == 0.0 { 0.0 } else { part / whole }
 }
 
-/// Returns true if the colours differ by more than an eye just notices, or one of them is not a number.
+/// Returns true if the colours differ by more than the smallest difference that an eye notices, or one of them is not a
+/// number.
 pub fn is_perceptible(a: Vec3, b: Vec3, white: f32) -> bool {
     let distance = (lab(a / white) - lab(b / white)).length();
     distance.is_nan() || distance > PERCEPTIBLE_STEP

@@ -27,8 +27,8 @@ const PIXELS_PER_DEGREE: f32 = 67.02;
 const COLOUR_EXPONENT: f32 = 0.7;
 const FEATURE_EXPONENT: f32 = 0.5;
 
-/// Share of the largest colour difference that is mapped to [`FULL_VALUE`]. Larger differences are mapped to the rest
-/// of the range (section 4.1.3).
+/// A colour difference that is this share of the largest one is mapped to [`FULL_VALUE`]. Larger differences are mapped
+/// to the rest of the range (section 4.1.3).
 const FULL_SHARE: f32 = 0.4;
 const FULL_VALUE: f32 = 0.95;
 
@@ -171,7 +171,7 @@ fn kernel(radius: i32, value: impl Fn(f32) -> f32) -> Vec<f32> {
     (-radius..=radius).map(|x| value(x as f32)).collect()
 }
 
-/// Scales the positive and the negative values so that each sum to 1.
+/// Scales the positive values so that they sum to 1, and the negative values so that they sum to -1.
 fn balanced(kernel: Vec<f32>) -> Vec<f32> {
     let sum = |sign: f32| kernel.iter().map(|x| (sign * x).max(0.0)).sum::<f32>();
     let (above, below) = (sum(1.0), sum(-1.0));

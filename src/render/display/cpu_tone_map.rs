@@ -24,7 +24,7 @@ const MIDDLE_GREY: f32 = 0.2;
 const HIGHLIGHT_SHARE: f32 = 0.95;
 const HIGHLIGHT: f32 = 1.5;
 
-/// Returns a picture of `size` pixels. `radiance` is linear and before exposure; it is premultiplied by its fourth
+/// Returns a picture of `size` pixels. `radiance` is linear and not yet exposed. It is premultiplied by its fourth
 /// channel, the covered share of the pixel.
 #[must_use]
 pub fn tone_map_on_cpu(size: [u32; 2], radiance: Vec<[f32; 4]>, settings: &RenderSettings) -> Picture {

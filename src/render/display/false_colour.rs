@@ -13,7 +13,7 @@ pub struct LuxScale {
     pub high: f32,
     /// True if equal ratios take equal lengths of the scale, false if equal differences do.
     pub is_logarithmic: bool,
-    /// Number of equal parts that lines of equal illuminance divide the scale into; 0 draws no lines.
+    /// Number of equal parts into which lines of equal illuminance divide the scale; 0 draws no lines.
     pub num_parts: u32,
 }
 

@@ -30,7 +30,7 @@ pub struct DrawBatch {
 pub enum Faces {
     /// The front; the back is solid but black.
     Front,
-    /// The front, and another triangle in the same place is the back: a double-sided surface in a bake.
+    /// The front. The back is another triangle in the same place: a double-sided surface in a bake.
     FrontOfTwins,
     /// Both faces of one triangle: a double-sided surface that was not baked.
     Both,

@@ -74,8 +74,8 @@ impl Linear {
         Level { width: self.width, height: self.height, rgba: rgba.collect() }
     }
 
-    /// Returns the image at half the size, rounded down, by exact means over areas. For an odd side, texels count in
-    /// fractions.
+    /// Returns the image at half the size, rounded down. Each new texel is the exact mean over the area that it covers.
+    /// If a side is odd, this area contains fractions of old texels.
     fn halved(&self) -> Self {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let columns: Vec<_> = (0..width).map(|x| footprint(x, width, self.width)).collect();

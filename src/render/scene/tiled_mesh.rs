@@ -1,7 +1,7 @@
 //! The coarse mesh of a bake on the device, and the part of it that a picture draws.
 //!
-//! Designed for software rendering (`viewer::software`), which it makes faster; it also serves hardware, where the gain
-//! is not measured.
+//! The coarse mesh is designed to make software rendering (`viewer::software`) faster. Hardware draws it too, but there
+//! the gain has not been measured.
 
 use std::sync::Arc;
 
@@ -54,7 +54,7 @@ struct Mesh {
 }
 
 impl TiledMesh {
-    /// Uploads the coarse mesh of a scene. `order` is that of the scene's vertices on the device.
+    /// Uploads the coarse mesh of a scene. `order` is the order of the scene's vertices on the device.
     pub(super) fn new(gpu: &Gpu, scene: &Scene, order: &VertexOrder, mut coarse: CoarseMesh) -> Self {
         sort_tiles(&mut coarse, scene);
         let tiled = &coarse.triangles[..coarse.tiles.len()];

@@ -1,4 +1,5 @@
-//! The light of a scene's vertices on the device. It is written again while a bake runs or when a moment is replayed.
+//! The light of a scene's vertices on the device. It is rewritten while a bake runs and when a recorded bake is
+//! replayed.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -9,8 +10,8 @@ use super::vertex_order::VertexOrder;
 use crate::baked::VertexLight;
 use crate::gpu::Gpu;
 
-/// Irradiance on the device: three f32 for `[2 x group + (0 direct, 1 indirect)][vertex]`, vertices in the order of the
-/// device.
+/// Irradiance on the device: three f32 for each `[2 x group + (0 direct, 1 indirect)][vertex]`. The vertices are in the
+/// order of the device.
 #[derive(Clone)]
 pub(super) struct LightBuffer {
     /// The buffer.
@@ -20,7 +21,7 @@ pub(super) struct LightBuffer {
     num_writes: Arc<AtomicU64>,
 }
 
-/// A version of the light of one scene. Each write makes another.
+/// A version of the light of one scene. Each write creates a new version.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LightVersion {
     irradiance: wgpu::Buffer,

@@ -16,7 +16,7 @@ use super::shared::frame_context::FrameContext;
 use super::technique::ShadowTechnique;
 use crate::gpu::Gpu;
 
-/// `MAX_LIGHTS` of shaders/surface/direct_few.wgsl.
+/// Largest number of light samples; equal to `MAX_LIGHTS` of shaders/surface/direct_few.wgsl.
 const MAX_LIGHTS: usize = 4;
 
 /// Properties of the light samples. They are constants of the shader, because software drivers execute both sides of a

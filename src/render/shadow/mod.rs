@@ -1,7 +1,7 @@
 //! Real-time direct light with shadows, by techniques that can be switched and compared.
 //!
 //! A bake stores direct and indirect light. In place of the stored direct light, `real_time` adds the light samples
-//! of a scene, each wherever it is not in shadow. Each technique is a room:
+//! of a scene, each wherever it is not in shadow. Each technique is a module:
 //!
 //! * `map`: shadow maps with percentage-closer filtering (Williams 1978; Reeves et al. 1987)
 //! * `volume`: shadow volumes in the stencil, z-pass and z-fail (Heidmann 1991; Everitt and Kilgard 2002)

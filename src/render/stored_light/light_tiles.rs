@@ -2,7 +2,8 @@
 //!
 //! A tile holds the radiance of white paint. At the vertices of the elements that its triangle replaces, the values are
 //! those of the vertices; the texels between are linear in each element. Tiles were designed for software rendering,
-//! where a fifth of the triangles draws faster. They also serve hardware, where the gain is not measured.
+//! where a picture of a fifth as many triangles is drawn faster. They also serve hardware, where the gain is not
+//! measured.
 
 use std::collections::HashMap;
 use std::sync::PoisonError;
@@ -23,7 +24,7 @@ pub(in crate::render) const LIGHT_TILES: Shader =
 
 /// Invocations of a compute group.
 const GROUP: u32 = 64;
-/// Largest number of compute groups in a row that every device can dispatch.
+/// Largest number of compute groups along one axis that every device can dispatch.
 const MAX_ROW: u32 = 65_535;
 
 /// Pipelines for vertices, for texels inside elements, and for texels beyond the long sides of tiles.

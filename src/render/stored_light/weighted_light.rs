@@ -49,7 +49,7 @@ struct Summed {
 }
 
 impl WeightedLight {
-    /// Attributes of the vertex buffer: 4 direct and 5 indirect irradiance.
+    /// Attributes of the vertex buffer: location 4 is direct irradiance, location 5 is indirect irradiance.
     pub const LAYOUT: wgpu::VertexBufferLayout<'static> = wgpu::VertexBufferLayout {
         array_stride: size_of::<WeightedVertex>() as u64,
         step_mode: wgpu::VertexStepMode::Vertex,

@@ -1,8 +1,8 @@
 //! Sources of direct light, and the shader and bindings of each.
 //!
-//! There are six shaders because constants, inputs and outputs of a shader are fixed when it is compiled. They cover
-//! four sources of direct light, two of them with the stored light at the vertices or in tiles. The files are shared; a
-//! shader differs in its `varying` and its `direct` part only. Merging them would add unused inputs to every vertex,
+//! There are six shaders because constants, inputs and outputs of a shader are fixed when it is compiled. There are
+//! four sources of direct light, and two of them have a second shader for stored light in tiles. The files are shared;
+//! a shader differs in its `varying` and its `direct` part only. Merging them would add unused inputs to every vertex,
 //! and a software driver writes and interpolates unused inputs too. [`DirectSource::Few`] was designed for software
 //! rendering; it also serves hardware, where its gain is not measured.
 

@@ -52,8 +52,8 @@ impl<'a> SurfaceTargets<'a> {
         }
     }
 
-    /// Returns targets as [`Self::display`], and one for the luminance from which the exposure of the next picture is
-    /// metered.
+    /// Returns the targets of [`Self::display`], and one for the luminance from which the exposure of the next picture
+    /// is metered.
     pub fn display_and_luminance(
         gpu: &Gpu,
         target: &'a wgpu::TextureView,

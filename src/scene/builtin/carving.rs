@@ -1,7 +1,7 @@
 //! Architecture as rooms carved out of a solid: the walls are closed, face inward, and share every edge.
 //!
 //! The planes of all boxes divide space into the cells of a rectilinear grid. A cell is solid by default, air inside a
-//! room, and solid again inside a block. There is a face between each pair of an air cell and a solid cell, so
+//! room, and solid again inside a block. There is a face wherever an air cell borders a solid cell. So
 //! neighbouring faces always share whole edges.
 
 use std::collections::BTreeMap;

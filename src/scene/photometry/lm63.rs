@@ -25,7 +25,7 @@ pub fn parse(bytes: &[u8]) -> Result<Photometry, String> {
         number.ok_or_else(|| format!("{:?} is not a number", word.chars().take(20).collect::<String>()))
     };
     if tilt.trim() == "INCLUDE" {
-        // Skips the lamp's position, and the pairs of angle and flux factor of a tilted lamp.
+        // Skips the lamp's position and the table of a tilted lamp: pairs of an angle and a flux factor.
         next()?;
         let pairs = count(next()?)?;
         (0..2 * pairs).try_for_each(|_| next().map(drop))?;

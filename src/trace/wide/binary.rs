@@ -1,10 +1,10 @@
 //! The binary tree that is collapsed into a wide one: built by two methods, of which the cheaper result is used.
 //!
-//! The surface area heuristic (SAH) estimates the cost of a tree: a ray that hits a box hits a box within it with a
-//! probability equal to the ratio of their surface areas, so cost = sum over the nodes of area x cost of the node.
-//! Clustering neighbours from below gives the lowest cost for most scenes, but not where many boxes are equal, as those
-//! of the elements of a bake: ties join them to long strips. Splitting from above, at the best of some buckets along
-//! each axis, has no ties.
+//! The surface area heuristic (SAH) estimates the cost of a tree. If a ray hits a box, the probability that it also
+//! hits a box inside it is the ratio of their surface areas, so cost = sum over the nodes of area x cost of the node.
+//! Clustering neighbours from below gives the lowest cost for most scenes. Exceptions are scenes with many equal
+//! boxes, such as those of the elements of a bake: ties join them to long strips. Splitting from above, at the best of
+//! some buckets along each axis, has no ties.
 //!
 //! Sources: Meister, Bittner 2018, "Parallel Locally-Ordered Clustering" (from below, by the `obvhs` crate); Wald 2007,
 //! "On fast Construction of SAH-based Bounding Volume Hierarchies" (from above).
@@ -61,8 +61,8 @@ fn from_above(triangles: &[[Vec3A; 3]]) -> Bvh2 {
     tree
 }
 
-/// Makes node `at` the root over the boxes with the given numbers. `first` is the place of the first of these in the
-/// whole list.
+/// Makes node `at` the root over the boxes with the given numbers. `first` is the index of the first of these
+/// numbers in the whole list.
 fn grow(tree: &mut Bvh2, boxes: &[Aabb], numbers: &mut [u32], at: usize, first: usize) {
     let bounds = numbers.iter().fold(Aabb::empty(), |all, &n| all.union(&boxes[n as usize]));
     if numbers.len() == 1 {

@@ -1,9 +1,10 @@
 //! Intersection of a ray with four boxes or four triangles at once, one in each lane.
 //!
-//! Boxes by the slab test: the ray is within the box between the largest of the three entries and the smallest of the
-//! three exits, t = (bound - origin) / direction along each axis.
+//! Boxes are tested by the slab test: the ray is within the box between the largest of the three entries and the
+//! smallest of the three exits, t = (bound - origin) / direction along each axis.
 //!
-//! Triangles by Möller, Trumbore 1997: `o + t d = a + u e1 + v e2` is solved for t, u and v by Cramer's rule.
+//! Triangles are tested as in Möller, Trumbore 1997: `o + t d = a + u e1 + v e2` is solved for t, u and v by Cramer's
+//! rule.
 
 use glam::{Vec3, Vec3A, Vec4};
 

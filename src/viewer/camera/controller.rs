@@ -166,7 +166,7 @@ impl CameraController {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct NoFloor;
 
-/// Returns the scale of a person in a scene with these bounds: 1 for diagonals of 3 m to 1000 m. In smaller or larger
+/// Returns the scale of a person in a scene with these bounds: 1 for diagonals from 3 m to 1000 m. In smaller or larger
 /// scenes the person is scaled with the scene.
 fn scale_of(bounds: Bounds) -> f32 {
     const SMALLEST: f32 = 3.0;

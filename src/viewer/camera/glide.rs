@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// Time constant T: after it a velocity has covered 63 % of the way to its target, seconds.
+/// Time constant T, seconds: the time in which a velocity covers 63 % of the way to its target.
 const GLIDE_TIME: f32 = 0.07;
 
 /// A velocity that approaches its target exponentially.

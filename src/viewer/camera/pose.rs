@@ -60,7 +60,7 @@ impl CameraPose {
         Quat::from_rotation_y(self.yaw) * Vec3::X
     }
 
-    /// Turns by `left` about +Y and tilts by `up`, radians; the tilt stops before the poles.
+    /// Turns by `left` about +Y and tilts by `up`, radians. The tilt is limited to just below 90 degrees.
     pub fn turn(&mut self, left: f32, up: f32) {
         self.yaw = (self.yaw + left).rem_euclid(std::f32::consts::TAU);
         self.pitch = (self.pitch + up).clamp(-MAX_PITCH, MAX_PITCH);

@@ -1,8 +1,8 @@
 //! The picture of the scene behind the panels. It is redrawn only if something in it has changed.
 //!
 //! Hardware draws every picture at full detail. A software driver (lavapipe) draws sketches during a movement: one
-//! sample per pixel, at half the size if the full size takes too long. It draws a fine picture when the movement has
-//! ended.
+//! sample per pixel, at half the size if the full size takes too long. When the movement has ended, it draws a picture
+//! at full detail, or with one sample per pixel at the full size during a bake.
 
 use std::sync::Arc;
 
@@ -70,7 +70,8 @@ impl Canvas {
         }
     }
 
-    /// Draws a hidden picture as a sketch and as it is at rest, so that a software driver compiles its shaders.
+    /// Draws a picture that is not shown, once as a sketch and once as at rest during a bake, so that a software driver
+    /// compiles its shaders.
     pub fn warm_up(&mut self, gpu: &Gpu) {
         let Some(content) = warm_up_content(gpu) else { return };
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("warm-up") });

@@ -29,17 +29,17 @@ use crate::viewer::settings::view::{TABS, Tab};
 /// Width of the side panel, points.
 pub const WIDTH: f32 = 312.0;
 
-/// What the user has set in the panels, and which dialogs are open.
+/// State of all panels: the settings of the user and the open dialogs.
 pub struct Panels {
-    /// How the light is shown.
+    /// Settings of the light in the picture.
     pub light: LightSettings,
     /// Preset of the next bake.
     pub quality: Quality,
     /// Preferences that are stored between runs.
     pub preferences: Preferences,
-    /// What a click in the picture does.
+    /// Tool that a click in the picture applies.
     pub tool: Tool,
-    /// Which instances are hidden and selected.
+    /// Instances that are hidden or selected.
     pub selection: Selection,
     /// The location that is marked in the picture.
     pub shown_advice: Option<AdviceLocation>,
@@ -120,7 +120,7 @@ impl Panels {
         (actions, free)
     }
 
-    /// Draws what lies over the picture.
+    /// Draws the labels, the marks and the legend over the picture.
     fn picture_ui(&mut self, ui: &mut Ui, free: Rect, facts: &Facts<'_>) {
         if facts.scene.open.is_none() && self.trouble.is_none() {
             message::empty_ui(ui.ctx(), free, &facts.bake.light);

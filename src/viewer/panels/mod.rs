@@ -2,7 +2,7 @@
 //! user has set) into widgets, and clicks into `Action`s.
 //!
 //! The panels have no access to the window, the device or the scene. Each section is a file with one `*_ui` function;
-//! the sections of a page of the side panel share a room: `picture`, `solution`, `measurement`, `scene`. `overlay` is
+//! the sections of a page of the side panel share a folder: `picture`, `solution`, `measurement`, `scene`. `overlay` is
 //! drawn over the picture, `chrome` is the rest of the window.
 
 mod chrome;

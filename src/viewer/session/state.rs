@@ -119,7 +119,7 @@ impl Session {
         self.start(Task::Open(self.source.clone(), self.variant.clone(), settings))
     }
 
-    /// Bakes the open scene; a file that is a bake is left as it is.
+    /// Bakes the open scene. Does nothing if the file of the scene stores its light, because it is then a bake already.
     ///
     /// # Errors
     /// Returns an error if the system cannot start a thread.

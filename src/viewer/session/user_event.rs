@@ -11,7 +11,7 @@ use crate::viewer::solution::solved::SolvedScene;
 
 /// An event that a thread sends to the window (the user event of winit).
 pub enum UserEvent {
-    /// The worker of a run reports. Events of earlier runs are ignored.
+    /// Event of the worker of a run. Events of earlier runs are ignored.
     Worker {
         /// Number of the run.
         run: u32,

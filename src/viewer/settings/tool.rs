@@ -1,6 +1,6 @@
-//! What a click in the picture does.
+//! The effect of a click in the picture.
 
-/// What a click in the picture does.
+/// The effect of a click in the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Tool {
     /// Captures the mouse, which then turns the camera.

@@ -9,11 +9,11 @@
 //! |---|---|---|
 //! | `software_renderer` | draws pictures of a movement with one sample per pixel instead of four | the CPU stores and resolves every sample; the gain was not measured separately |
 //! | `sketch_size` | halves the width and height of moving pictures if a full one takes longer than 16 ms and half the size helps | the size follows the measured times, so scenes that gain nothing stay sharp |
-//! | `software_renderer`, last exposure | shows a moving picture under the exposure metered for the one before | the surface pass writes display colours at once: 5 ms per picture less than radiance and tone map |
+//! | `software_renderer`, last exposure | shows a moving picture under the exposure metered for the one before | the surface pass then writes display colours directly, without a pass for tone mapping, which saves 5 ms per picture |
 //! | `kept_side` | caches the side panel as a texture and repaints it if one of its shapes has changed | its hundreds of glyphs took longer than the picture |
 //! | `warm_up` | draws a picture before the window shows one | lavapipe compiles a shader when it first draws, which delayed the first step of a walk |
 //! | `window::surface` | waits for the frame before the bake resumes | otherwise the bake takes the cores that the frame is drawn on |
-//! | `gpu::software` | stops the allocator from returning memory to the system after each submission | a third of the time of a hemicube (glibc) |
+//! | `gpu::software` | stops the allocator from returning memory to the system after each submission | saves a third of the time of a hemicube (with glibc) |
 //! | `bake::settings::method` | computes form factors by rays by default | a ray visits the triangles near it, an item buffer draws every triangle that may cover a pixel |
 //!
 //! Other parts were designed for this driver but also run on hardware, where their gain is not measured:
@@ -23,8 +23,8 @@
 //!   triangles instead of 20,000, 91,000 and 409,000.
 //! * `render::surface::direct_source`: up to four light samples are added by the surface pass itself, without passes
 //!   for depth and direct light.
-//! * `render::shadow::map`: the block planes of a shadow map, one read instead of a window of reads inside large
-//!   triangles: a frame of cornell with one map takes a third less.
+//! * `render::shadow::map`: inside large triangles, a lookup reads one block plane of a shadow map instead of a window
+//!   of texels. A frame of cornell with one map takes a third less time.
 //! * `render::stored_light::weighted_light`: the sum over the light groups is computed when a lamp is dimmed, not for
 //!   each vertex of each picture.
 //!

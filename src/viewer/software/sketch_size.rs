@@ -5,13 +5,14 @@
 const SLOWEST: f32 = 0.016;
 /// Half size is used if its pictures take less than this fraction of the time of full-size ones.
 const GAIN: f32 = 0.9;
-/// Factor on both limits for a change of the size, so that it does not change back and forth.
+/// Factor that makes a limit stricter, so that the size does not change back and forth: it multiplies `SLOWEST` for a
+/// change to full size, and `GAIN` for a change to half size.
 const CAUTION: f32 = 0.9;
 /// Number of half-size pictures after which one is drawn at full size, to measure its time again. A size is kept for at
 /// least as many pictures.
 const PROBE: u32 = 60;
-/// Weight of the newest picture in the mean, if it is slower and if it is faster. A slow picture may have other
-/// reasons, so its weight is smaller.
+/// Weights of the newest picture in the mean: the first if it is slower than the mean, the second if it is faster. A
+/// picture may be slow for other reasons, so the first weight is smaller.
 const SMOOTHING: [f32; 2] = [0.2, 0.5];
 
 /// Chooses the size by the times of the pictures so far.
@@ -68,8 +69,8 @@ impl SketchSize {
 mod tests {
     use super::*;
 
-    /// Draws 300 pictures that take `full` or `half` seconds, by their size. Returns the share of full-size pictures
-    /// among the last hundred.
+    /// Draws 300 pictures that take `full` or `half` seconds, depending on their size. Returns the share of full-size
+    /// pictures among the last hundred.
     fn share_of_full(size: &mut SketchSize, full: f32, half: f32) -> f32 {
         let mut next = || {
             let is_full = size.is_full();

@@ -10,7 +10,7 @@ use crate::render::{RenderSettings, ShadowScene, View};
 use crate::scene::builtin;
 use crate::viewer::picture::content::PictureContent;
 
-/// Width and height, pixels. For powers of two drivers may compile other shaders, so they are none.
+/// Width and height, pixels. They are not powers of two, for which drivers may compile other shaders.
 const SIZE: [u32; 2] = [90, 60];
 
 /// Returns the content of the picture: the Cornell box without light.

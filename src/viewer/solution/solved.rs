@@ -16,7 +16,7 @@ use crate::viewer::settings::light::GroupDial;
 
 /// A scene with its solved light.
 pub struct SolvedScene {
-    /// The scene before the bake; its elements if the file is a bake.
+    /// The scene before the bake, or its elements if the file is a bake.
     pub scene: Arc<Scene>,
     /// The elements: triangle `e` of `baked` is element `e`.
     pub mesh: PatchMesh,

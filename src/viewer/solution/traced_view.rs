@@ -39,7 +39,7 @@ pub struct TracedViewRequest {
     pub dials: Vec<GroupDial>,
 }
 
-/// Traces one ray per pixel in each pass. After each pass calls `on_pass` with the mean of the passes so far.
+/// Traces one ray per pixel in each pass. After each pass, it calls `on_pass` with the mean of the passes so far.
 pub fn trace(solved: &SolvedScene, request: &TracedViewRequest, progress: &dyn Progress, on_pass: impl Fn(TracedView)) {
     let TracedViewRequest { camera, size, settings: render_settings, dials } = request;
     let baked = solved.dimmed(dials);

@@ -55,7 +55,8 @@ impl App {
         let attributes =
             Window::default_attributes().with_title("Hemicube").with_inner_size(SIZE).with_min_inner_size(SMALLEST);
         let window = Arc::new(event_loop.create_window(attributes).context("cannot open a window")?);
-        // Without a window manager no window has the focus, and by default raw motion is reported to that one only.
+        // Without a window manager no window has the focus, and by default raw motion is reported only to a window with
+        // the focus.
         event_loop.listen_device_events(DeviceEvents::Always);
         self.viewer_in(window, &self.options)
     }

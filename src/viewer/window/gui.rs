@@ -12,7 +12,7 @@ use crate::viewer::panels::theme;
 pub struct Gui {
     ctx: egui::Context,
     state: egui_winit::State,
-    /// When the panels have to be drawn again without any event.
+    /// Time at which the panels have to be drawn again even if no event arrives.
     wake: Option<Instant>,
 }
 
@@ -50,7 +50,7 @@ impl Gui {
         self.ctx.text_edit_focused()
     }
 
-    /// When the panels have to be drawn again without any event.
+    /// Returns the time at which the panels have to be drawn again even if no event arrives.
     #[must_use]
     pub fn wake(&self) -> Option<Instant> {
         self.wake
@@ -67,7 +67,7 @@ impl Gui {
         let output = self.ctx.run_ui(input, contents);
         self.state.handle_platform_output(window, output.platform_output);
         let delay = output.viewport_output.get(&egui::ViewportId::ROOT).map(|viewport| viewport.repaint_delay);
-        // egui states "never" as a very long time.
+        // egui expresses "never" as a very long delay.
         self.wake = delay.filter(|&delay| delay < Duration::from_secs(3600)).map(|delay| Instant::now() + delay);
         PanelShapes {
             primitives: self.ctx.tessellate(output.shapes, output.pixels_per_point),

@@ -8,7 +8,8 @@ use std::time::{Duration, Instant};
 
 use anyhow::Context;
 
-/// Pause after a frame during a bake, as a fraction of the time of the frame; at least [`SHORTEST_PAUSE`].
+/// Pause after a frame during a bake, as a fraction of the time that the frame took to draw. It is at least
+/// [`SHORTEST_PAUSE`].
 const PAUSE_SHARE: f32 = 0.25;
 /// Shortest pause after a frame during a bake.
 const SHORTEST_PAUSE: Duration = Duration::from_millis(8);
@@ -17,7 +18,7 @@ const SMOOTHING: f32 = 0.1;
 
 /// Decides when the next frame is due, and measures frames.
 pub struct Pacer {
-    /// Time at which the next frame was requested; `None` if none is.
+    /// Time at which the next frame was requested; `None` if no frame is requested.
     requested: Option<Instant>,
     /// Shortest time between two frames.
     interval: Duration,
@@ -45,8 +46,7 @@ impl Pacer {
         let now = Instant::now();
         Ok(Self {
             requested: Some(now),
-            // Presentation synchronises frames with the screen, so the interval is slightly shorter than that of the
-            // screen.
+            // Presentation synchronises frames with the screen, so the interval is slightly shorter than the screen's.
             interval: Duration::from_secs_f32(0.8 / refresh_rate.max(1.0)),
             began: now,
             ended: now,
@@ -85,8 +85,8 @@ impl Pacer {
         if self.is_continuous { since.as_secs_f32() } else { self.interval.as_secs_f32() }
     }
 
-    /// Ends a frame that is on the screen. Logs `SECONDS BAKING`: the time since the request, and 1 during a bake,
-    /// otherwise 0.
+    /// Ends a frame that is on the screen. Logs `SECONDS BAKING`: the time since its request, and 1 during a bake or 0
+    /// otherwise.
     pub fn end(&mut self, is_baking: bool) {
         let now = Instant::now();
         let requested = self.requested.take().unwrap_or(self.began);
@@ -117,7 +117,7 @@ impl Pacer {
         self.frame_seconds
     }
 
-    /// Returns the smoothed number of frames per second during movements; 0 before the first.
+    /// Returns the smoothed number of frames per second during movements; 0 before the first movement.
     #[must_use]
     pub fn frame_rate(&self) -> f32 {
         if self.gap_seconds > 0.0 { 1.0 / self.gap_seconds } else { 0.0 }

@@ -1,4 +1,4 @@
-//! Messages about faults of the shadows that are known for the view.
+//! Messages about known faults of the shadows in the current view.
 
 use crate::render::shadow::KnownFault;
 use crate::scene::Scene;

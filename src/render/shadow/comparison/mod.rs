@@ -1,4 +1,4 @@
-//! Compares shadow techniques: in which pixels they decide differently whether a light is visible.
+//! Compares shadow techniques: finds the pixels in which they disagree whether a light is visible.
 
 mod decisions;
 mod difference;

@@ -71,7 +71,7 @@ impl ShadowComparison {
         Ok(Decisions { size: scene.size, samples })
     }
 
-    /// Returns the stencil after the shadows of light sample `index`, one byte a pixel.
+    /// Returns the stencil after the shadows of light sample `index` have been marked in it, one byte a pixel.
     ///
     /// # Errors
     /// Returns an error if the device was lost.

@@ -1,4 +1,4 @@
-//! Cut-out shadow pass: marks visible points whose line to the light is blocked by a solid place of a caster with
+//! Cut-out shadow pass: marks visible points whose line to the light is blocked by an opaque part of a caster with
 //! holes.
 
 use super::cutouts::{SceneCutouts, cutouts_layout};

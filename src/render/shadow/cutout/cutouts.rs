@@ -17,7 +17,7 @@ use crate::scene::{AlphaMode, Scene};
 const SLACK: f32 = 1e-5;
 /// [`CutoutNode::triangle`] of an inner node.
 const NO_TRIANGLE: u32 = u32::MAX;
-/// Smallest alpha of a blending surface that throws a shadow; the same as for rays.
+/// Smallest alpha of a blending surface that casts a shadow; rays use the same value.
 const HALF_OPAQUE: f32 = 0.5;
 
 /// `CutoutCorner` of shaders/shadow/cutout/cutout_shadow.wgsl: a corner with everything that its opacity depends on.

@@ -35,9 +35,9 @@ pub struct MarksKey {
 /// Corners of lines and triangles.
 #[derive(Default)]
 pub struct Marks {
-    /// Two corners a line.
+    /// Corners of the lines, two each.
     pub lines: Vec<Mark>,
-    /// Three corners a triangle.
+    /// Corners of the triangles, three each.
     pub triangles: Vec<Mark>,
 }
 

@@ -1,4 +1,4 @@
-//! Direct light of one light sample after the other, whatever technique finds its shadows.
+//! Direct light, added one light sample after the other, in the same way for every shadow technique.
 //!
 //! A lamp becomes [`samples`]: points and directions that each throw one hard shadow. [`direct_light`] adds the
 //! irradiance of one sample to the [`targets`] of a picture. A technique implements [`shadow_pass::ShadowPass`] to mark

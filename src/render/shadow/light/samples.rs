@@ -95,7 +95,7 @@ mod tests {
 
     #[test]
     fn samples_of_a_surface_sum_to_its_irradiance() {
-        // Four times the factor from a point to a parallel square of side a at distance c over its corner,
+        // Four times the form factor from a point to a parallel square of side a with a corner above it at distance c:
         // F = 2 / (2 pi) x a / sqrt(a^2 + c^2) x atan(a / sqrt(a^2 + c^2)), with a = c = 1.
         let half: f32 = 0.5f32.sqrt();
         let expected = PI * 4.0 * half * half.atan() / PI;

@@ -89,8 +89,8 @@ impl SceneData for MapCache {
 impl Maps {
     /// Returns the map with this content, and whether it has yet to be drawn.
     ///
-    /// If there is no room, the map that was used *last* is dropped. Each picture uses the maps of all lights in the
-    /// same order, so that map will be needed again last (Belady's rule for a cycle).
+    /// If there is no room, the most recently used map is dropped. Each picture uses the maps of all lights in the same
+    /// order; therefore the next use of that map is the farthest in the future (Belady's rule for a cycle).
     pub fn get(&mut self, gpu: &Gpu, content: MapContent) -> (&Map, bool) {
         let found = self.maps.iter().position(|map| map.content == content);
         let map = match found {

@@ -1,7 +1,7 @@
 //! Projection of casters on to a plane (Blinn 1988).
 //!
-//! The projection is computed in double precision, and in the same way for both triangles at an edge. So no light leaks
-//! through where casters are clipped.
+//! The projection is computed in double precision, and in the same way for both triangles at an edge. Therefore no
+//! light leaks through at the places where casters are clipped.
 
 use glam::{DMat4, DVec3, DVec4, Vec3, Vec4};
 
@@ -66,8 +66,8 @@ fn clip(polygon: &[DVec3], inside: impl Fn(DVec3) -> f64) -> Vec<DVec3> {
             kept.push(this);
         }
         if (inside(this) >= 0.0) != (inside(next) >= 0.0) {
-            // Goes always from the inner end to the outer one, so that both triangles at an edge compute the same
-            // point.
+            // Always interpolates from the inner end to the outer one, so that both triangles at an edge compute the
+            // same point.
             let [from, to] = if inside(this) >= 0.0 { [this, next] } else { [next, this] };
             kept.push(from.lerp(to, inside(from) / (inside(from) - inside(to))));
         }
@@ -116,7 +116,7 @@ mod tests {
 
     #[test]
     fn the_foot_of_a_wall_keeps_its_position() {
-        // Coordinates that change in any multiplication.
+        // Coordinates that rounding would change in any multiplication.
         let foot = [Vec3::new(0.1, 0.0, -1.3), Vec3::new(0.1, 1e-7, 1.7)];
         let positions = vec![foot[0], foot[1], Vec3::new(0.1, 2.0, 0.3)];
         let triangle = Caster {

@@ -1,7 +1,7 @@
 //! Planar shadow pass: marks in the stencil which points are on a receiver, and which of them are in shadow.
 //!
 //! The stencil holds the number of a point's receiver in its upper five bits and counts shadows in the lower three (see
-//! [`stencil`](crate::render::shadow::shared::stencil)). [`PlanarSettings`] has a cure for each fault of the textbook
+//! [`stencil`](crate::render::shadow::shared::stencil)). [`PlanarSettings`] has a remedy for each fault of the textbook
 //! method.
 
 use glam::Vec4;
@@ -22,7 +22,7 @@ use crate::render::shadow::shared::stencil::{
 const PLANAR_SHADOW: Shader = shader!("planar shadow", "shared/frame.wgsl", "shadow/planar/planar_shadow.wgsl");
 /// Depth bias of shadows that may extend beyond their receivers. It lifts them above the receivers.
 const LIFT: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: 16, slope_scale: 1.0, clamp: 0.0 };
-/// Largest distance from a plane of a corner that counts as part of it, as a share of the scene's extent.
+/// A corner lies in a plane if its distance from the plane is at most this share of the scene's extent.
 const CLEARANCE: f32 = 2e-5;
 
 /// Planar shadow pass.
@@ -108,7 +108,8 @@ fn mark_stencil() -> wgpu::StencilState {
     both_faces(on_pass(wgpu::CompareFunction::Always, wgpu::StencilOperation::Replace), !0, RECEIVER_BITS)
 }
 
-/// Returns the state that counts a shadow on points whose receiver has the number of the reference value.
+/// Returns the state that counts a shadow on the points of one receiver: those with its number, given by the reference
+/// value.
 fn shadow_stencil(settings: &PlanarSettings) -> wgpu::StencilState {
     use wgpu::CompareFunction::{Always, Equal};
     use wgpu::StencilOperation::{IncrementClamp, Replace};

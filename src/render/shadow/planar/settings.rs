@@ -1,4 +1,4 @@
-//! Settings of planar shadows: what receives and throws them, and the cures for their faults.
+//! Settings of planar shadows: what receives and casts them, and the cures for their faults.
 
 use std::collections::BTreeSet;
 
@@ -15,7 +15,7 @@ pub struct PlanarSettings {
     pub num_receivers: usize,
     /// Planes that are chosen to receive shadows, as `plane_of` returns them.
     pub receivers: Vec<Vec4>,
-    /// Instances that are chosen to throw shadows. If this is empty, all instances do.
+    /// Instances that are chosen to cast shadows. If this is empty, all instances do.
     pub casters: BTreeSet<InstanceId>,
     /// True if shadows end at the edge of their receiver (by a stencil mark). If false, they extend into the air.
     pub stays_on_receiver: bool,
@@ -24,7 +24,7 @@ pub struct PlanarSettings {
     /// True if points under several casters are darkened once. If false, they are darkened twice.
     pub darkens_once: bool,
     /// True if casters are clipped at the plane and at the height of the light. If false, casters below the plane or
-    /// above the light throw anti-shadows.
+    /// above the light cast anti-shadows.
     pub clips_casters: bool,
 }
 

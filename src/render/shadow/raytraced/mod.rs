@@ -4,7 +4,7 @@
 //! The raster decides which surface a pixel shows ([`visible_points`]), so pictures differ from those of the other
 //! techniques only in their shadows. Everything else is computed in double precision. [`ray_origin`] finds the point
 //! where the ray through the middle of the pixel hits a triangle. [`traced_light`] tests which side of the triangle
-//! faces the light and whether something stands between. If a pixel has several samples, they share that point.
+//! faces the light and whether something blocks the light. If a pixel has several samples, they share that point.
 
 mod pixel_rays;
 mod ray_origin;

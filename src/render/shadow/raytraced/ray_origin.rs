@@ -15,8 +15,8 @@ const SNAP: f64 = 1.0 / 128.0;
 const CORNERS: [DVec2; 4] = [DVec2::NEG_ONE, DVec2::new(1.0, -1.0), DVec2::new(-1.0, 1.0), DVec2::ONE];
 /// Largest distance along a line between two estimates of one point, as a share of the distance from the eye.
 const SAME_POINT: f64 = 1e-3;
-/// Smallest cosine between a triangle's normal and the shading normal of the raster that identifies the triangle for
-/// certain.
+/// Smallest cosine between a triangle's normal and the raster's shading normal at which the triangle is certainly the
+/// one that the raster shows.
 const CERTAIN: f64 = 0.9;
 
 /// The origin of a pixel's shadow rays, and the surface that it lies on.
@@ -34,8 +34,8 @@ impl RayOrigin {
     pub fn new(rays: &ExactRays, lines: &PixelRays, pixel: usize, visible: VisiblePoint) -> Self {
         let middle = lines.through(pixel, DVec2::ZERO);
         let hit = SurfaceHit::new(rays, lines, middle, &visible).filter(SurfaceHit::is_certain).or_else(|| {
-            // The raster snaps corners to a fraction of a pixel. So at the edge of a triangle it may show another
-            // triangle than the line through the middle hits.
+            // The raster snaps corners to a fraction of a pixel. So at the edge of a triangle, the triangle
+            // that it shows may differ from the one that the line through the middle hits.
             let beside = CORNERS.map(|corner| lines.through(pixel, SNAP * corner));
             let hits =
                 [middle].into_iter().chain(beside).filter_map(|line| SurfaceHit::new(rays, lines, line, &visible));

@@ -40,8 +40,8 @@ impl RaytracedLight {
     }
 
     /// Returns a texture of irradiance times pre-exposure. Its fourth channel counts the visible samples. If
-    /// `adds_to_last`, it is the sum with the last picture. If the device was lost, it is black, and the next read-back
-    /// reports the loss.
+    /// `adds_to_last` is true, the last picture is added. If the device was lost, the texture is black, and the next
+    /// read-back reports the loss.
     pub fn draw(&mut self, frame: FrameContext<'_>, samples: &[LightSample], adds_to_last: bool) -> wgpu::TextureView {
         let origins = self.origins(frame).unwrap_or_default();
         let irradiance_at = |origin: &RayOrigin| {

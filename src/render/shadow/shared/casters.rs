@@ -13,7 +13,8 @@ use glam::Vec3;
 use crate::base::ids::InstanceId;
 use crate::scene::{AlphaMode, Scene, edge_cross};
 
-/// Largest distance from an edge of a corner that counts as lying on it, as a share of the scene's extent.
+/// Largest distance between an edge and a corner at which the corner counts as lying on the edge, as a share of the
+/// scene's extent.
 const ON_EDGE: f32 = 2e-6;
 
 /// Opaque triangles, which throw shadows, and their edges.

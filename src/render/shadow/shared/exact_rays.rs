@@ -148,7 +148,7 @@ impl ExactRays {
         let passes = [[b, c], [c, a], [a, b]].map(|[from, to]| side_of_edge(line, from, to));
         let is_inside = passes.iter().all(|&side| side >= 0.0) || passes.iter().all(|&side| side <= 0.0);
         let total: f64 = passes.iter().sum();
-        // The plane of a triangle contains the line: the triangle does not block it.
+        // If the sum is 0, the line lies in the plane of the triangle, which then does not block it.
         if !is_inside || total == 0.0 {
             return None;
         }

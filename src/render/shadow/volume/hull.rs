@@ -89,8 +89,8 @@ pub fn terminator(casters: &Casters, facing: &[i32], position: Vec4) -> Hull {
     let mut hull = Hull::default();
     for (triangle, &facing) in casters.triangles.iter().zip(facing).filter(|(_, facing)| **facing != 0) {
         let to_light = casters.corners(triangle).map(|corner| position.truncate() - position.w * corner);
-        // An interpolated normal can face an interpolated direction only if the normal of one corner faces the
-        // direction of a corner, perhaps of another one.
+        // An interpolated normal can face an interpolated direction only if the normal of some corner faces the
+        // direction at some corner, not necessarily the same one.
         let faces_light =
             |&normal: &Vec3| to_light.iter().any(|&to_light| (normal.dot(to_light) < 0.0) == (facing > 0));
         if triangle.normals.iter().any(faces_light) {

@@ -1,9 +1,9 @@
 //! Shadow volumes: the stencil counts in how many volumes each visible point is (Crow 1977; Heidmann 1991).
 //!
 //! A triangle throws a volume that is bounded by the triangle and by the planes through the light and its edges, and
-//! extends to infinity. A point is in shadow if it is in a volume: if a path from outside all volumes to the point
-//! enters more volumes than it leaves. [`hull`] builds the volumes of all casters from signed edge counts (Kim, Kim and
-//! Turk 2008), and [`stencil`] holds the two ways to count them:
+//! extends to infinity. A point is in shadow if it is in a volume. This is the case if a path from outside all volumes
+//! to the point enters more volumes than it leaves. [`hull`] builds the volumes of all casters from signed edge counts
+//! (Kim, Kim and Turk 2008), and [`stencil`] holds the two ways to count them:
 //!
 //! * z-pass, here *depth-pass*: along the ray from the eye to the point. It needs no caps and fails if the near plane
 //!   cuts a volume; [`volumes`] has a cure.

@@ -4,7 +4,8 @@ use glam::{Vec3, Vec4};
 
 use crate::render::View;
 
-/// Margin for rounding, as a share of the distance from the eye to the light.
+/// Margin for rounding, as a share of the distance from the near plane to the triangle or to the light, whichever is
+/// larger. A light farther away than 1 km counts as 1 km away.
 const MARGIN: f32 = 1e-5;
 /// Substitute for the distance of a directional light, metres.
 const FAR_AWAY: f32 = 1e6;
@@ -25,8 +26,8 @@ impl NearPlane {
         Self { centre, radius: centre.distance(at(1.0, 1.0)) }
     }
 
-    /// Returns true if the volume of a triangle may reach the near plane, from a light at a homogeneous position. The
-    /// test is conservative: it may return true for a volume that does not reach the plane.
+    /// Returns true if the shadow volume of a triangle may reach the near plane. `light` is the homogeneous position of
+    /// the light. The test is conservative: it may return true for a volume that does not reach the plane.
     ///
     /// The volume reaches the plane if the triangle intersects the cone from the light to the near plane. A capsule
     /// round the cone's axis bounds the cone.

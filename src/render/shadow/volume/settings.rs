@@ -3,8 +3,8 @@
 /// Settings of shadow volumes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeSettings {
-    /// True if depth-pass counts triangles whose volumes reach the near plane by depth-fail. If false, shadows are
-    /// wrong where the near plane cuts a volume, as in a textbook.
+    /// True if depth-pass uses depth-fail for the triangles whose volumes reach the near plane. If false, as in the
+    /// textbook method, shadows are wrong where the near plane cuts a volume.
     pub near_plane_cure: bool,
     /// Distance of a far plane that cuts volumes off, metres. `None` is correct; a far plane shows the fault.
     pub far_plane: Option<f32>,

@@ -9,8 +9,9 @@
 //! c_e = sum over the triangles t at e of  d_{t,e} f_t
 //! ```
 //!
-//! Within a surface two triangles cancel. At a silhouette they add up to +-2, at the border of an open mesh to +-1. The
-//! sign is the direction of the volume's side at this edge, and the absolute value is the number of times it is drawn.
+//! At an edge within a surface, the terms of its two triangles cancel. At a silhouette they add up to +-2. At the
+//! border of an open mesh, the term of the only triangle is +-1. The sign is the direction of the volume's side at this
+//! edge, and the absolute value is the number of times it is drawn.
 
 use glam::{DVec3, Vec3, Vec4};
 use rayon::prelude::*;

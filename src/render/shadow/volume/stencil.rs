@@ -16,9 +16,9 @@ use crate::render::shadow::light::pass_setup::PassSetup;
 use crate::render::shadow::shared::pipeline::{CORNER, PipelineRecipe, against_depth, pipeline_layout};
 use crate::render::shadow::shared::stencil::{both_faces, on_pass};
 
-/// Depth bias of volumes, away from the eye. At the caster's edge the side, and on its triangle the cap, have the depth
-/// of the surface except for rounding; the volume must lose the depth test there. The bias is the volume's change of
-/// depth over a 128th of a pixel, which is more than rasterisation moves corners.
+/// Depth bias of volumes, away from the eye. The sides of a volume at the caster's edges, and the cap on the caster's
+/// triangle, have the depth of the surface except for rounding. There the volume must fail the depth test. The bias is
+/// the volume's change of depth over a 128th of a pixel, which is more than rasterisation moves corners.
 const DEEPER: wgpu::DepthBiasState = wgpu::DepthBiasState { constant: -4, slope_scale: -1.0 / 128.0, clamp: 0.0 };
 
 /// Pipelines for counter-clockwise and clockwise triangles of a [`Hull`](super::hull::Hull).

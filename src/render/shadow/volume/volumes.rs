@@ -1,10 +1,10 @@
-//! The volumes of one light. Each triangle is counted in the way that is right for it.
+//! The volumes of one light. The volume of each triangle is counted by z-pass or by z-fail.
 //!
 //! z-pass counts faces between eye and point. It is wrong where the near plane is in a volume, because the face through
-//! which the path enters the volume is clipped. The cure counts the few triangles whose volumes reach the near plane by
-//! z-fail and all others by z-pass: a count is a sum over triangles, and each summand may be counted either way (the
-//! idea of ZP+, Hornus et al. 2005, "ZP+: correct z-pass stencil shadows", which counts the near plane in a pass of its
-//! own).
+//! which the path enters the volume is clipped. The cure: triangles whose volumes reach the near plane are few and
+//! are counted by z-fail, all others by z-pass. This is valid because a count is a sum over triangles, and each summand
+//! may be counted either way (the idea of ZP+, Hornus et al. 2005, "ZP+: correct z-pass stencil shadows", which counts
+//! the near plane in a pass of its own).
 
 use glam::{DVec4, Vec3, Vec4};
 use rayon::prelude::*;
@@ -74,7 +74,8 @@ impl Volumes {
     }
 }
 
-/// Returns the volumes for z-pass, and those for z-fail: of the triangles whose volumes may reach the near plane.
+/// Returns the volumes for z-pass and the volumes for z-fail. A triangle is counted by z-fail if its volume may reach
+/// the near plane.
 fn cured(casters: &Casters, viewpoint: &Viewpoint, facing: &[i32], light: Vec4) -> (Hull, Hull) {
     let reaches = |triangle: &Caster| viewpoint.near_plane.is_reached_by_volume(casters.corners(triangle), light);
     let is_fail: Vec<bool> = casters.triangles.par_iter().map(reaches).collect();

@@ -26,7 +26,7 @@ const GLOBE_HEIGHT: f32 = 2.2;
 /// void outside.
 pub(super) fn windows(builder: &mut Builder, finishes: &Finishes) {
     let [sill, head] = WINDOWS_Y;
-    // Two metres outward, against the sunlight; widened so that no ray grazes a side.
+    // The shaft extends two metres outward, against the sunlight. It is widened so that no ray grazes a side.
     let out = -SUN * (2.0 / -SUN.z);
     for ([west, east], number) in WINDOWS_X.into_iter().zip(1..) {
         let inner =

@@ -36,7 +36,7 @@ const DAIS_X: [f32; 2] = [8.1, 10.2];
 const COLUMNS_X: [f32; 4] = [0.6, 2.4, 4.2, 6.0];
 const COLUMNS_Z: f32 = 5.4;
 
-/// Adds rooms, steps, dais and pedestals as one carving: closed, with all edges shared.
+/// Adds rooms, steps, dais and pedestals as one carving, a closed surface in which all edges are shared.
 pub(super) fn build(builder: &mut Builder, finishes: &Finishes) {
     let mut carving = Carving::default();
     rooms(&mut carving, finishes);

@@ -56,7 +56,8 @@ impl<'a> Rows<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Checks the layout of accessor `index`. `user` describes the item with the reference, for the error message.
+    /// Checks the layout of accessor `index`. `user` describes the item that refers to the accessor, for the error
+    /// message.
     ///
     /// # Errors
     /// Returns an error if the accessor does not exist or does not fit its buffer view.

@@ -76,7 +76,8 @@ fn without_byte_order_mark(bytes: &[u8]) -> &[u8] {
     bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }
 
-/// Removes or completes what the typed model refuses although the standard allows it or the loader ignores it.
+/// Removes or completes parts that the typed model refuses, although the standard allows them or the loader ignores
+/// them.
 fn be_lenient(json: &mut Value) {
     if let Value::Object(root) = json {
         root.remove("animations");

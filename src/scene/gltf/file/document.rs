@@ -1,5 +1,5 @@
 //! A parsed file with its buffers. [`Document::find`] checks indices before they are used. Skins (`mesh/skin.rs`) and
-//! photometric profiles (`light/photometric.rs`) are untyped JSON, and their indices are checked there.
+//! photometric profiles (`light/photometric.rs`) are untyped JSON; those two modules check their indices.
 
 use std::borrow::Cow;
 use std::path::Path;

@@ -88,7 +88,7 @@ impl<'a> Profiles<'a> {
     /// Returns the distribution in photometric file `index`.
     ///
     /// # Errors
-    /// Returns an error if the file cannot be read; it is one sentence for the caller to embed in a note.
+    /// Returns an error if the file cannot be read. The error is one sentence that the caller embeds in a note.
     pub fn get(&mut self, index: usize) -> Result<Arc<Photometry>, String> {
         let document = self.document;
         let read = || read(document, definitions(&document.root).get(index).ok_or("the file has no such profile")?);

@@ -121,8 +121,8 @@ impl<'a> MaterialReader<'a> {
         Ok(material)
     }
 
-    /// Replaces the metallic-roughness values, which are only a fallback, by the diffuse part of a specular-glossiness
-    /// material.
+    /// Replaces the metallic-roughness values by the diffuse part of a specular-glossiness material, for which they
+    /// are only a fallback.
     fn take_diffuse(&mut self, material: &mut Material, extension: &serde_json::Value) -> Result<(), Cause> {
         let name = material.name.clone();
         let source = SpecularGlossiness::deserialize(extension).map_err(|error| {
@@ -136,7 +136,8 @@ impl<'a> MaterialReader<'a> {
         Ok(())
     }
 
-    /// Returns the normal texture with its scale. Its texture transform is untyped in the gltf crate's model.
+    /// Returns the normal texture with its scale. Its texture transform is read from JSON, because the gltf crate
+    /// has no field for it.
     fn normal_texture(
         &mut self,
         name: &str,
@@ -166,8 +167,8 @@ impl<'a> MaterialReader<'a> {
         Ok(Some(TextureSlot { texture, uv_set: vertex_set, transform }))
     }
 
-    /// Returns the index of the vertices' coordinate set, 0 or 1, that holds the file's set `uv_set`: sets 0 and 1 keep
-    /// their index if it is free. `None` if both hold other sets.
+    /// Returns which coordinate set of the vertices, 0 or 1, holds the file's set `uv_set`. Sets 0 and 1 of the file
+    /// keep their index if it is free. Returns `None` if both sets of the vertices hold other sets.
     fn vertex_set_of(&mut self, uv_set: u32) -> Option<usize> {
         let preferred = usize::from(uv_set > 0);
         let is_free = |set: &usize| self.vertex_sets[*set].is_none_or(|taken| taken == uv_set);

@@ -27,7 +27,7 @@ struct Skin {
     inverse_bind_matrices: Option<u32>,
 }
 
-/// Returns the transforms W_j B_j of a skin's joints, from mesh space to world space `[joint]`.
+/// Returns the transforms W_j B_j from mesh space to world space of a skin's joints `[joint]`.
 ///
 /// `world_from_node` holds the visible nodes by their index in the file.
 ///
@@ -73,7 +73,8 @@ pub(crate) fn world_from_nodes(nodes: &[PlacedNode<'_>]) -> HashMap<usize, DAffi
     nodes.iter().map(|placed| (placed.index, placed.world_from_node)).collect()
 }
 
-/// Returns the skin that deforms a primitive of this node; `None` if the node has no skin or the primitive no joints.
+/// Returns the skin that deforms a primitive of this node; `None` if the node has no skin or the primitive has no
+/// joints.
 pub(crate) fn of_node(node: &Node, geometry: &Geometry) -> Option<Index<json::Skin>> {
     node.skin.filter(|_| !geometry.influences.is_empty())
 }
@@ -114,8 +115,8 @@ mod tests {
 
     use crate::scene::gltf::fixture::Fixture;
 
-    /// Returns a triangle whose first two corners follow joint 0, and whose last follows joint 0 and, 2 higher, joint 1
-    /// by half each.
+    /// Returns a triangle whose first two corners follow joint 0. Its last corner follows joint 0 and joint 1, which is
+    /// 2 higher, by half each.
     fn skinned() -> Fixture {
         let mut fixture = Fixture::triangle();
         let joints = fixture.accessor(5121, "VEC4", 3, &[0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0]);

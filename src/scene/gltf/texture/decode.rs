@@ -53,7 +53,8 @@ fn format_of(encoded: &[u8]) -> Result<ImageFormat, String> {
 /// Decodes an image. Its first bytes determine the format, whatever the MIME type in the file.
 ///
 /// # Errors
-/// Returns an error if the format is not supported or the image is invalid; it is one sentence for the caller to embed.
+/// Returns an error if the format is not supported or the image is invalid. The error is one sentence, which the caller
+/// embeds in a message.
 pub(crate) fn decode(encoded: &[u8]) -> Result<Pixels, String> {
     if encoded.starts_with(&KTX2_MAGIC) {
         return decode_ktx2(encoded);

@@ -35,8 +35,8 @@ impl Encoded {
     }
 }
 
-/// Fetches all encoded images `[image]`. An image is an error if it cannot be read, or if its header states more pixels
-/// than the limit allows.
+/// Fetches all encoded images `[image]`. The result for an image is an error if the image cannot be read, or if its
+/// header states more pixels than the limit allows.
 pub(crate) fn fetch_images(
     document: &Document<'_>,
     sources: BTreeMap<usize, &json::Image>,

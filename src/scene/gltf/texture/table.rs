@@ -72,9 +72,9 @@ impl TextureTable {
     }
 }
 
-/// Returns the index of the image of a texture: the plain one, else that of an extension.
+/// Returns the index of the image of a texture: the image that the texture itself states, else that of an extension.
 fn source_of(texture: &json::Texture) -> Option<usize> {
-    // The typed model uses the largest index if there is no source.
+    // If a texture states no source, the typed model contains the largest index in its place.
     let plain = Some(texture.source.value()).filter(|&source| source != u32::MAX as usize);
     plain.or_else(|| {
         let extensions = &texture.extensions.as_ref()?.others;

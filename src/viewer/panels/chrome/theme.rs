@@ -30,7 +30,7 @@ pub fn apply(ctx: &egui::Context) {
         // An animation would request frames and slow down the bake.
         style.animation_time = 0.0;
     });
-    // The panels have the scale of the desktop. Ctrl + and - do not change it.
+    // The panels have the scale of the desktop. The keys Ctrl + and Ctrl - do not change it.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
 }
 

@@ -1,4 +1,4 @@
-//! What the panels show and do not set, grouped by what it is about.
+//! Facts that the panels show but cannot change, grouped by subject.
 
 mod bake;
 mod camera;
@@ -14,7 +14,7 @@ pub use picture::PictureFacts;
 pub use scene::SceneFacts;
 pub use shadow::ShadowFacts;
 
-/// What the panels show and do not set.
+/// Facts that the panels show but cannot change.
 #[derive(Clone, Default)]
 pub struct Facts<'a> {
     /// Facts about the open scene.

@@ -1,4 +1,4 @@
-//! What is drawn over the picture.
+//! Everything that is drawn over the picture.
 
 pub mod comparison;
 pub mod legend;

@@ -1,4 +1,4 @@
-//! Bake: preset, settings in words, start, progress, cancel, and the certificate of the last bake.
+//! Section "Bake": preset, description of the settings, start, progress, cancel, certificate of the last bake.
 
 use egui::{ProgressBar, RichText, Sense, Stroke, Ui, pos2, vec2};
 

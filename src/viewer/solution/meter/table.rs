@@ -19,7 +19,7 @@ const COLUMNS: [&str; 15] =
 /// Formats the table: all pinned readings, then all points of the grid.
 ///
 /// # Errors
-/// Returns an error if the CSV writer fails, which it does not in memory.
+/// Returns an error if the CSV writer fails. It does not fail when it writes to memory, as here.
 pub(super) fn table_of(pins: &[Reading], grid: Option<&Grid>) -> anyhow::Result<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(COLUMNS)?;

@@ -8,9 +8,9 @@ use winit::window::{CursorGrabMode, Window};
 
 /// Turn for one pixel of motion, radians.
 const TURN_PER_PIXEL: f32 = 0.0025;
-/// Largest motion of a press that is a click, pixels.
+/// Largest motion during a press that still counts as a click, pixels.
 const CLICK_REACH: f32 = 4.0;
-/// Longest duration of a press that is a click.
+/// Longest duration of a press that still counts as a click.
 const CLICK_TIME: Duration = Duration::from_millis(300);
 
 /// State of the mouse. Its motion turns the camera while a button is held, and while it is captured.
@@ -96,7 +96,7 @@ impl Mouse {
             return false;
         }
         self.state = State::Free;
-        // The system may refuse both. The pointer then stays where it is.
+        // The system may refuse to release the pointer or to move it. The pointer then stays where it is.
         let _ = window.set_cursor_grab(CursorGrabMode::None);
         if let Some(start) = self.start.take() {
             let _ = window.set_cursor_position(start);
