@@ -1,7 +1,7 @@
 //! Floor 1: the GPU device and nothing else: adapter and tier, shader modules, read-back, timestamps.
 //!
-//! The code that draws is on higher floors: `render::scene` has the lit scene on the device, and each pass has its
-//! shader beside it. wgpu is used here, in `form_factor::hemicube`, `render` and `viewer`, and nowhere else.
+//! The code that draws is on higher floors: `render::scene` has the lit scene on the device, and each pass
+//! declares its own shader. wgpu is used here, in `form_factor::hemicube`, `render` and `viewer`, and nowhere else.
 
 pub mod context;
 pub mod error;

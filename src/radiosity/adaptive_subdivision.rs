@@ -21,8 +21,8 @@ use crate::scene::Scene;
 /// How far elements are subdivided.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SubdivisionSettings {
-    /// Deviation of the light at an edge's midpoint from the mean of its ends at which the edge is halved, relative to
-    /// the light there.
+    /// An edge is halved if the light at its midpoint deviates by more than this from the mean of its ends, as a share
+    /// of the light at the midpoint or of that mean, whichever is larger.
     pub max_error: f32,
     /// Edges shorter than this, in metres, are halved only at larger deviations, in inverse proportion to their length.
     /// Small elements pay off at the edge of a hard shadow, but not at that of a soft one.

@@ -88,9 +88,10 @@ impl SamplingNoise {
 /// Returns the luminance of the irradiance from `radiosity` `[e][g]` through a row of `num_samples` samples, and its
 /// variance.
 ///
-/// Of n evenly spread samples on one object, only those near its outline hit or miss it by chance: about sqrt(n). Each
-/// is worth the contrast of the object to the mean, so the object adds contrast^2 sqrt(F / N) / N to the variance,
-/// where F = n / N is its form factor and N the number of samples.
+/// Let N be the number of samples and F = n / N the form factor of an object that n of them hit. Of these, only those
+/// near the object's outline hit or miss it by chance: about sqrt(n). Each chance hit changes the estimate by
+/// contrast / N, where contrast is the object's radiosity less the mean. So the object adds
+/// sqrt(n) (contrast / N)^2 = contrast^2 sqrt(F / N) / N to the variance.
 #[must_use]
 pub fn irradiance_and_variance(row: &Row, radiosity: &Field, num_samples: f32) -> (f32, f32) {
     let seen: f32 = row.entries.iter().map(|entry| entry.factor).sum();

@@ -71,8 +71,8 @@ impl Beams {
         last
     }
 
-    /// Density with which a ray of `light` finds `surface`, per steradian at a point whose ray hits the surface at
-    /// `distance`.
+    /// A point's ray hits `surface` at `distance`. Returns the density, per steradian at that point, with which a ray
+    /// that leaves `light` finds the same place.
     ///
     /// Equation: p = p_light cos_lit / r_light^2 x r^2 / cos_seen, converted from solid angle at the light to area, and
     /// from area to solid angle at the point.

@@ -24,7 +24,8 @@ pub(super) fn pre_exposure(baked: &BakedScene) -> f32 {
     scale.log2().floor().exp2()
 }
 
-/// Returns the log-average of the radiance E / pi of white paint in one part of the light.
+/// Returns the log-average of E / pi, the radiance of white paint. Each vertex counts once for the direct and once for
+/// the indirect irradiance E of each light group.
 ///
 /// The logarithm limits the influence of single vertices: the irradiance of a vertex that touches a point light is
 /// unbounded.

@@ -12,8 +12,9 @@ use crate::scene::AlphaMode;
 /// Blend state of premultiplied colour: source + (1 - source alpha) x target, for colour and alpha.
 const PREMULTIPLIED: wgpu::BlendState = wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING;
 
-/// Replaces colour and keeps the larger alpha. A sample of a mask is solid, but its alpha is the coverage of the pixel.
-/// If that replaced the alpha 1 of a surface behind, the background would show through.
+/// Replaces colour and keeps the larger alpha. With alpha to coverage, a multisample that a masked
+/// surface hits is fully covered, but the alpha written to it is the share of the pixel that is covered. If that
+/// replaced the alpha 1 of a surface behind, the background would show through.
 const KEEP_LARGER_ALPHA: wgpu::BlendState = wgpu::BlendState {
     color: wgpu::BlendComponent::REPLACE,
     alpha: wgpu::BlendComponent {
